@@ -5,7 +5,9 @@
 
 pub mod draws;
 pub mod golden_file;
+pub mod page;
 pub mod random;
+pub mod same_text;
 pub mod tolerances;
 
 #[cfg(feature = "scenes")]

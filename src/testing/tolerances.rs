@@ -7,9 +7,12 @@ pub struct Tolerance {
 }
 
 /// Makes a constant of each line.
+#[macro_export]
 macro_rules! tolerances {
-    ($($(#[$doc:meta])+ $name:ident = $limit:literal, $reason:literal;)+) => {
-        $($(#[$doc])+ pub const $name: Tolerance = Tolerance { limit: $limit, reason: $reason };)+
+    ($($(#[$doc:meta])* $name:ident = $limit:expr, $reason:literal;)+) => {
+        $($(#[$doc])*
+        pub const $name: $crate::tolerances::Tolerance =
+            $crate::tolerances::Tolerance { limit: $limit, reason: $reason };)+
     };
 }
 

@@ -21,17 +21,14 @@
 use std::f64::consts::PI;
 
 use crate::common::conforming::Conforming;
-use crate::common::tolerances::{HERTZ_PRINTED, Tolerance, assert_near};
+use crate::common::tolerances::{HERTZ_PRINTED, assert_near};
 
-/// Persson's half width and peak over Hertz's where the arc is small, relative.
-const SMALL_ARC: Tolerance =
-    Tolerance { limit: 1e-3, reason: "an arc of 0.01 radians: they part by its square" };
-
-/// Persson's pressure in the integral equation that it solves, relative to the equation's right side.
-const INTEGRAL_EQUATION: Tolerance = Tolerance {
-    limit: 1e-4,
-    reason: "20,000 points of the midpoint rule, next to roots: measured 3e-5",
-};
+testing::tolerances! {
+    /// Persson's half width and peak over Hertz's where the arc is small, relative.
+    SMALL_ARC = 1e-3, "an arc of 0.01 radians: they part by its square";
+    /// Persson's pressure in the integral equation that it solves, relative to the equation's right side.
+    INTEGRAL_EQUATION = 1e-4, "20,000 points of the midpoint rule, next to roots: measured 3e-5";
+}
 
 #[test]
 fn persson_solves_the_integral_equation() {

@@ -11,15 +11,16 @@
 //! 1/3, plane stress, thickness 1.
 
 use crate::common::recovery::{node_at, solved};
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::grid::{between, ends, grid};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Cook: half a unit of the last of the three decimals of the reference numbers, absolute.
-const COOK: Tolerance =
-    Tolerance { limit: 5.1e-4, reason: "the reference numbers are printed with three decimals" };
+testing::tolerances! {
+    /// Cook: half a unit of the last of the three decimals of the reference numbers, absolute.
+    COOK = 5.1e-4, "the reference numbers are printed with three decimals";
+}
 
 /// The membrane with corners (0, 0), (48, 44), (48, 60), (0, 44), of n x n cells.
 pub fn membrane(n: usize) -> SceneBuilder {

@@ -8,7 +8,7 @@ mod fields;
 mod meshes;
 
 use crate::common::outcome::solve as solve_embedded;
-use crate::common::tolerances::{CONSTANT_FIELD, Tolerance, assert_near};
+use crate::common::tolerances::{CONSTANT_FIELD, assert_near};
 use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR};
 use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
 use nalgebra::Vector2;
@@ -19,17 +19,13 @@ use plane_contact::problem::model::TriangleId;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 
-/// Largest effectivity.
-const EFFECTIVITY_HIGH: Tolerance =
-    Tolerance { limit: 1.3, reason: "the issue's own number; below 1 is measured everywhere" };
-
-/// Least effectivity, estimated / true error in the energy norm, of the discretisation error
-/// estimate on smooth fields.
-const EFFECTIVITY_LOW: Tolerance = Tolerance {
-    limit: 0.8,
-    reason: "the issue's own number; 0.88 is measured on the coarsest mesh, 0.97 and more on the \
-         finest",
-};
+testing::tolerances! {
+    /// Largest effectivity.
+    EFFECTIVITY_HIGH = 1.3, "the issue's own number; below 1 is measured everywhere";
+    /// Least effectivity, estimated / true error in the energy norm, of the discretisation error estimate on smooth
+    /// fields.
+    EFFECTIVITY_LOW = 0.8, "the issue's own number; 0.88 is measured on the coarsest mesh, 0.97 and more on the finest";
+}
 
 struct Benchmark {
     name: &'static str,

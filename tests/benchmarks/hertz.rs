@@ -19,27 +19,18 @@
 //! dual multipliers (an own code) change displacements by 4e-4 and 9e-5.
 
 use crate::common::fitted_hertz::over_hertz;
-use crate::common::tolerances::{HERTZ_PRINTED, Tolerance, assert_near};
+use crate::common::tolerances::{HERTZ_PRINTED, assert_near};
 use plane_contact::problem::modelling::{Coupling, Geometry};
 use plane_contact::studies::benchmark::Hertz;
 
-/// Known departures of a curved or deformed surface from Hertz's half plane, relative.
-const KNOWN_CURVATURE: Tolerance = Tolerance {
-    limit: 1e-3,
-    reason: "stated to three decimals, and a mesh error of 5e-4 at 40 and 59 edges",
-};
-
-/// The same at about 30,000.
-const HERTZ_FINE: Tolerance = Tolerance {
-    limit: 5e-3,
-    reason: "the issue's own number; measured 0.1 %, and 0.03 % at a tenth of the load",
-};
-
-/// Hertz's half width and peak at about 4,000 equations, relative.
-const HERTZ_COARSE: Tolerance = Tolerance {
-    limit: 1e-2,
-    reason: "the issue's own number; measured 0.2 %, node to segment 0.4 %",
-};
+testing::tolerances! {
+    /// Known departures of a curved or deformed surface from Hertz's half plane, relative.
+    KNOWN_CURVATURE = 1e-3, "stated to three decimals, and a mesh error of 5e-4 at 40 and 59 edges";
+    /// The same at about 30,000.
+    HERTZ_FINE = 5e-3, "the issue's own number; measured 0.1 %, and 0.03 % at a tenth of the load";
+    /// Hertz's half width and peak at about 4,000 equations, relative.
+    HERTZ_COARSE = 1e-2, "the issue's own number; measured 0.2 %, node to segment 0.4 %";
+}
 
 const HALF_WIDTH: f64 = 6.2146;
 const PEAK: f64 = 3585.36;

@@ -13,26 +13,17 @@
 
 use crate::common::annulus::annulus as plate;
 use crate::common::recovery::{extrapolated, node_at, order, solved};
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use plane_contact::engine::Solution;
 
-/// Lamé at 64 divisions, hoop stress of the bore, relative to it.
-const LAME_STRESS: Tolerance = Tolerance {
-    limit: 6e-4,
-    reason: "second order by extrapolation: 3.9e-4 was measured, four times that at 32 divisions",
-};
-
-/// Lamé at 64 divisions through the wall, displacement of the bore, relative to it.
-const LAME_DISPLACEMENT: Tolerance = Tolerance {
-    limit: 2e-4,
-    reason: "second order: 1.2e-4 was measured, four times that at 32 divisions",
-};
-
-/// Lamé: order of convergence, absolute.
-const LAME_ORDER: Tolerance = Tolerance {
-    limit: 0.06,
-    reason: "theory gives 2 in the limit; 1.95, 2.00, 2.01 were measured between 4 and 32 divisions",
-};
+testing::tolerances! {
+    /// Lamé at 64 divisions, hoop stress of the bore, relative to it.
+    LAME_STRESS = 6e-4, "second order by extrapolation: 3.9e-4 was measured, four times that at 32 divisions";
+    /// Lamé at 64 divisions through the wall, displacement of the bore, relative to it.
+    LAME_DISPLACEMENT = 2e-4, "second order: 1.2e-4 was measured, four times that at 32 divisions";
+    /// Lamé: order of convergence, absolute.
+    LAME_ORDER = 0.06, "theory gives 2 in the limit; 1.95, 2.00, 2.01 were measured between 4 and 32 divisions";
+}
 
 pub fn annulus(n: usize) -> Solution {
     solved(plate(n, 2 * n))

@@ -13,22 +13,19 @@
 //! near the limit (`common::recovery`).
 
 use crate::common::recovery::{averaged, extrapolated, node_at, solved};
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::grid::{between, ends, grid, quarter};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// LE1 at 64 divisions by extrapolation, relative to 92.7.
-const LE1_LIMIT: Tolerance = Tolerance {
-    limit: 3e-3,
-    reason: "92.7 is rounded at 5e-4; extrapolation on the axis of symmetry leaves 1.4e-3 at 64 \
-         divisions, 2.6e-3 at 128",
-};
-
-/// LE1: half a unit of the last of the two decimals of the reference numbers, absolute.
-const LE1_GRID: Tolerance =
-    Tolerance { limit: 5.1e-3, reason: "the reference numbers are printed with two decimals" };
+testing::tolerances! {
+    /// LE1 at 64 divisions by extrapolation, relative to 92.7.
+    LE1_LIMIT = 3e-3,
+        "92.7 is rounded at 5e-4; extrapolation on the axis of symmetry leaves 1.4e-3 at 64 divisions, 2.6e-3 at 128";
+    /// LE1: half a unit of the last of the two decimals of the reference numbers, absolute.
+    LE1_GRID = 5.1e-3, "the reference numbers are printed with two decimals";
+}
 
 /// The membrane of n x n cells.
 pub fn membrane(n: usize) -> SceneBuilder {

@@ -2,7 +2,7 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, golden_file, tolerances};
+    pub use testing::{annulus, page, tolerances};
 
     pub mod conforming;
     pub mod fitted_hertz;

@@ -4,18 +4,16 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use crate::common::tolerances::{STRAIGHT, Tolerance, assert_near};
+use crate::common::tolerances::{STRAIGHT, assert_near};
 use plane_contact::problem::element;
 use plane_contact::problem::scene::{Mesh, SceneBuilder};
 use plane_contact::studies::benchmark::{Blocks, Hertz, Kind, Punch, Strand};
 use tempfile::TempDir;
 
-/// Areas and lengths of generated meshes with curved sides, relative to the exact ones.
-const CHORDS: Tolerance = Tolerance {
-    limit: 0.02,
-    reason: "chords of at most 15 degrees cut off 1.2 % of the sector, and half as much again at the \
-         ends",
-};
+testing::tolerances! {
+    /// Areas and lengths of generated meshes with curved sides, relative to the exact ones.
+    CHORDS = 0.02, "chords of at most 15 degrees cut off 1.2 % of the sector, and half as much again at the ends";
+}
 
 /// Of each kind the area of its two bodies, then lengths of groups of edges; `3π` is three times π.
 const SIZES: [&str; 4] = [

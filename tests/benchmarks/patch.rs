@@ -14,14 +14,15 @@
 //! unchanged too; displacements differ from ours by 3e-13 of the largest.
 
 use crate::common::recovery::solved_by;
-use crate::common::tolerances::{PATCH_TEST, Tolerance, assert_near};
+use crate::common::tolerances::{PATCH_TEST, assert_near};
 use plane_contact::engine::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::Blocks;
 
-/// sigma_y / p of the patch test under node to segment, absolute.
-const KNOWN_NTS: Tolerance =
-    Tolerance { limit: 1e-4, reason: "the known miss is stated to four digits" };
+testing::tolerances! {
+    /// sigma_y / p of the patch test under node to segment, absolute.
+    KNOWN_NTS = 1e-4, "the known miss is stated to four digits";
+}
 
 const P: f64 = 6.3;
 

@@ -12,15 +12,14 @@
 use std::f64::consts::PI;
 
 use crate::common::recovery::solved;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use plane_contact::engine::Solution;
 use plane_contact::studies::benchmark::Punch;
 
-/// The pressure of a flat punch away from its corner, relative to the closed form.
-const PUNCH: Tolerance = Tolerance {
-    limit: 1.5e-2,
-    reason: "24 edges on the half width, a boundary at 20: measured 1 %",
-};
+testing::tolerances! {
+    /// The pressure of a flat punch away from its corner, relative to the closed form.
+    PUNCH = 1.5e-2, "24 edges on the half width, a boundary at 20: measured 1 %";
+}
 
 /// As far as this the corner's last nodes do not show.
 const AWAY: f64 = 0.75;

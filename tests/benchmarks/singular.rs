@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use crate::common::annulus::annulus;
 use crate::common::recovery::solved;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::cook::membrane;
 use crate::kirsch::sheet;
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit, singular};
@@ -22,11 +22,10 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::{Request, solve};
 
-/// The growth of the displacement under a force on a node, from mesh to mesh.
-const FLAMANT: Tolerance = Tolerance {
-    limit: 0.01,
-    reason: "on the third of four meshes the force is 24 edges from the nearest side",
-};
+testing::tolerances! {
+    /// The growth of the displacement under a force on a node, from mesh to mesh.
+    FLAMANT = 0.01, "on the third of four meshes the force is 24 edges from the nearest side";
+}
 
 /// The number of a node by its place, from 1.
 fn node([x, y]: [usize; 2]) -> usize {

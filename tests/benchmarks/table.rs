@@ -1,38 +1,28 @@
 //! `golden/tables/benchmarks.md`: published numbers beside ours. `INSTA_UPDATE=always` writes it anew.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use plane_contact::engine::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::{Blocks, Hertz};
 
 use crate::common::fitted_hertz::over_hertz;
-use crate::common::golden_file::assert_file;
+use crate::common::page::{assert_table, markdown, percent};
 use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
 use crate::{cook, kirsch, lame, le1, punch, punch_patch};
 
 #[test]
 fn published_numbers_beside_ours() {
     let rows = [patches(), pressures(), plates()].concat();
-    let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
-    let text = format!(
-        "**Problems with a known solution.** Made by the test `published_numbers_beside_ours`.\n\n\
-         | benchmark | quantity | published | here |\n|---|---|---|---|\n{rows}"
-    );
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/benchmarks.md");
-    assert_file(&file, &text);
-}
-
-/// A share in per cent; what is rounding alone is 0.
-fn percent(share: f64) -> String {
-    if share.abs() < 1e-9 { "0".into() } else { format!("{:.1} %", 100.0 * share) }
+    let table = markdown("benchmark | quantity | published | here", rows);
+    let source = "Made by the test `published_numbers_beside_ours`";
+    assert_table("benchmarks", "Problems with a known solution.", source, &table);
 }
 
 /// The largest error of sigma_y over the pressure.
 fn misses(solution: &Solution, pressure: f64) -> String {
     let misses = solution.elements.iter().map(|state| (state.sigma[1] / pressure + 1.0).abs());
-    percent(misses.fold(0.0, f64::max))
+    percent(misses.fold(0.0, f64::max), 1)
 }
 
 fn patches() -> Vec<String> {
@@ -73,7 +63,7 @@ fn pressures() -> Vec<String> {
         ),
         format!(
             "flat punch | largest error of the pressure up to 0.75 of the half width | 0 | {}",
-            percent(errors.fold(0.0, f64::max))
+            percent(errors.fold(0.0, f64::max), 1)
         ),
     ]
 }

@@ -3,6 +3,7 @@
 //! ```text
 //! # What must hold, or once went wrong.
 //! with FOLDER              the files that it starts with, a folder of tests/cases/<area>
+//! needs REQUIRE_X COMMAND  else it is left out; where the environment has REQUIRE_X, the command must succeed
 //! $ COMMAND                of `sh`, with plane-contact on its path; `> ` goes on with it
 //! ? 2                      its exit status, where that is not 0
 //! | a line of standard output
@@ -17,15 +18,16 @@
 //!
 //! Why no library runs them: trycmd joins both streams and knows no shell, and neither it nor snapbox has a tolerance.
 
-#[path = "../common/same_text.rs"]
-mod same_text;
+#[path = "../common/tools.rs"]
+mod tools;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use same_text::same_text;
 use tempfile::TempDir;
+use testing::golden_file::is_written;
+use testing::same_text::same_text;
 
 /// A test of each area, which is a file of cases and a folder of their files.
 macro_rules! areas {
@@ -48,7 +50,7 @@ macro_rules! areas {
 }
 
 areas!(
-    bodies commands contact edited fields files guide hostile limits meshes mistakes pictures sentences
+    bodies commands contact disks edited fields files guide hostile limits meshes mistakes pictures recipes sentences shells
     snapshots solvers summary sweeps trade worksheets
 );
 
@@ -58,6 +60,8 @@ struct Case {
     about: Vec<String>,
     /// The folder of the files that it starts with.
     with: Option<String>,
+    /// The variable that demands it, and the command that tells whether it can be run.
+    needs: Option<String>,
     commands: Vec<Ran>,
 }
 
@@ -84,7 +88,7 @@ fn check(area: &str) {
         "{area}.txt is written otherwise than this program writes it"
     );
     let mut wrong = Vec::new();
-    for case in &mut cases {
+    for case in cases.iter_mut().filter(|case| case.is_possible()) {
         let found = case.run(&folder.join(area));
         for (expected, found) in case.commands.iter_mut().zip(found) {
             if let Some(why) = expected.difference(&found) {
@@ -93,7 +97,7 @@ fn check(area: &str) {
             }
         }
     }
-    if !wrong.is_empty() && std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if !wrong.is_empty() && is_written() {
         std::fs::write(&file, written(&cases)).expect("the file of an area");
         return;
     }
@@ -110,6 +114,7 @@ fn parsed(text: &str) -> Vec<Case> {
             match (kind, last) {
                 ("# ", None) => case.about.push(rest.into()),
                 ("wi", None) => case.with = Some(rest.trim_start_matches("th ").into()),
+                ("ne", None) => case.needs = Some(rest.trim_start_matches("eds ").into()),
                 ("$ ", _) => case.commands.push(Ran { command: rest.into(), ..Ran::default() }),
                 ("> " | ">", Some(ran)) => ran.command += &format!("\n{rest}"),
                 ("? ", Some(ran)) => ran.status = rest.parse().expect("an exit status"),
@@ -132,6 +137,7 @@ impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.about.iter().try_for_each(|line| writeln!(f, "# {line}"))?;
         self.with.iter().try_for_each(|folder| writeln!(f, "with {folder}"))?;
+        self.needs.iter().try_for_each(|needs| writeln!(f, "needs {needs}"))?;
         self.commands.iter().try_for_each(|ran| write!(f, "{ran}"))
     }
 }
@@ -151,6 +157,13 @@ impl fmt::Display for Ran {
 }
 
 impl Case {
+    fn is_possible(&self) -> bool {
+        self.needs.as_ref().is_none_or(|needs| {
+            let (demanded_by, command) = needs.split_once(' ').expect("a variable and a command");
+            tools::has(command, demanded_by)
+        })
+    }
+
     /// Runs the commands in one shell, in a folder that has the case's files; returns what comes of each that it
     /// reaches, with the folder's own name as `[..]`.
     fn run(&self, inputs: &Path) -> Vec<Ran> {

@@ -5,26 +5,24 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Whether a command succeeds; where the environment demands it, it must.
-pub fn is_there(mut command: Command, demanded_by: &str) -> bool {
-    let found = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let is_there = found.is_ok_and(|status| status.success());
-    assert!(is_there || std::env::var_os(demanded_by).is_none(), "{command:?} is demanded");
+/// Whether a line of the shell succeeds, as it must where the environment has the variable that demands it.
+pub fn has(line: &str, demanded_by: &str) -> bool {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", line]).stdout(Stdio::null()).stderr(Stdio::null());
+    let is_there = shell.status().is_ok_and(|status| status.success());
+    assert!(is_there || std::env::var_os(demanded_by).is_none(), "{line} is demanded");
+    if !is_there {
+        eprintln!("what needs `{line}` is left out");
+    }
     is_there
 }
 
-/// Whether Python has some packages, as it must where the environment demands it.
-pub fn has_python(packages: &str, demanded_by: &str) -> bool {
-    let mut python = Command::new("python3");
-    python.args(["-c", &format!("import {packages}")]);
-    is_there(python, demanded_by)
+pub fn has_ccx() -> bool {
+    has("command -v ccx", "REQUIRE_CCX")
 }
 
-/// Whether node is installed, as it must be where `REQUIRE_BROWSER` is set.
 pub fn has_node() -> bool {
-    let mut node = Command::new("node");
-    node.arg("--version");
-    is_there(node, "REQUIRE_BROWSER")
+    has("node --version", "REQUIRE_BROWSER")
 }
 
 /// The folder of playwright-core and axe-core where a browser can be driven, as it must be where

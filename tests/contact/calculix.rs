@@ -1,14 +1,12 @@
 //! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where
 //! `REQUIRE_CCX` is set it must be.
 
-use std::process::Command;
-
-use crate::common::embedded::scene_json;
-use crate::common::golden_floats::assert_golden;
+use crate::common::golden_file::assert_text;
 use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::rows::scene_of;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
+use crate::common::tools::has_ccx;
 use crate::scenes::FOLDER;
 use crate::unilateral::models;
 use nalgebra::DVector;
@@ -18,57 +16,41 @@ use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{Contact, Pair, Part, deck, float, parse, run};
 use plane_contact::studies::compare::Beside;
-use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The same for the largest von Mises stress of a body, relative to it.
-const PENALTY_STRESS: Tolerance = Tolerance {
-    limit: 5e-2,
-    reason: "ccx pushes along the normal of the target's face, unilateral along one that turns from \
-         face to face: 2.3e-2 on the strand, whatever the penalty; the default penalty adds 2e-3",
-};
-
-/// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest
-/// displacement.
-const PENALTY: Tolerance = Tolerance {
-    limit: 1e-2,
-    reason: "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 \
-         mm of 4.2e-4 mm",
-};
-
-/// CalculiX beside this program on the same equations, relative to the largest displacement, or
-/// von Mises stress.
-const CCX_PRINTS: Tolerance = Tolerance {
-    limit: 1e-6,
-    reason: "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, \
-         and so is each of the parts of a sum",
-};
-
-/// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to
-/// the largest.
-const CORRECTED_CCX: Tolerance = Tolerance {
-    limit: 0.01,
-    reason: "its contact yields by a penalty: 0.6 % measured, normal and both",
-};
-
-/// Displacements under friction beside those of ccx's own contact and friction, relative to the
-/// largest.
-const CCX_FRICTION: Tolerance = Tolerance {
-    limit: 0.01,
-    reason: "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2",
-};
+testing::tolerances! {
+    /// The same for the largest von Mises stress of a body, relative to it.
+    PENALTY_STRESS = 5e-2,
+        "ccx pushes along the normal of the target's face, unilateral along one that turns from face to face: 2.3e-2 \
+         on the strand, whatever the penalty; the default penalty adds 2e-3";
+    /// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest displacement.
+    PENALTY = 1e-2,
+        "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 mm of 4.2e-4 mm";
+    /// CalculiX beside this program on the same equations, relative to the largest displacement, or von Mises stress.
+    CCX_PRINTS = 1e-6,
+        "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, and so is each of the \
+         parts of a sum";
+    /// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to the
+    /// largest.
+    CORRECTED_CCX = 0.01, "its contact yields by a penalty: 0.6 % measured, normal and both";
+    /// Displacements under friction beside those of ccx's own contact and friction, relative to the largest.
+    CCX_FRICTION = 0.01, "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2";
+}
 
 /// What `ccx` printed for the deck `golden/fig1/calculix-tied.snap`.
 const PRINTED: &str = include_str!("calculix/fig1.dat");
 
-fn ccx_is_there() -> bool {
-    let there = Command::new("ccx").arg("-v").output().is_ok();
-    assert!(there || std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
-    there
-}
-
 fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
     deck(&scene.title, &solution.model, &parts.last().unwrap().contact).unwrap()
+}
+
+const FIG1: &str = "golden/fig1";
+
+/// Words to the letter, numbers to twelve digits.
+fn same_deck(golden: &str, deck: &str) -> bool {
+    let digits = |word: &str| word.parse().map_or(word.into(), |x: f64| format!("{x:.11e}"));
+    let words = |text: &str| text.split([',', '\n']).map(digits).collect::<Vec<String>>();
+    words(golden) == words(deck)
 }
 
 #[test]
@@ -77,12 +59,12 @@ fn decks_of_fig1() {
         let (scene, solution) = solve("fig1", variant);
         let parts = Contact::parts(&solution).unwrap();
         let text = last_deck(&scene, &solution, &parts);
-        assert_golden("fig1", &format!("calculix-{variant}"), &text);
+        assert_text(format!("{FIG1}/calculix-{variant}"), &text, same_deck);
     }
     let (scene, solution) = solve("fig1", Variant::Tied);
     let pair = |friction| Pair::new(&solution.model, Some(1e7), friction);
     let of = |friction| last_deck(&scene, &solution, &[pair(friction).into()]);
-    assert_golden("fig1", "calculix-pair", &of(Friction::STICK));
+    assert_text(format!("{FIG1}/calculix-pair"), &of(Friction::STICK), same_deck);
     assert!(of(Friction::STICK).contains("*FRICTION"));
     assert!(!of(Friction::NONE).contains("*FRICTION"));
 }
@@ -186,7 +168,7 @@ fn solution(scene: &Scene, variant: Variant) -> Solution {
 
 #[test]
 fn ccx_solves_the_same_equations() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     for (name, mut scene) in scenes() {
@@ -213,7 +195,7 @@ fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
 /// own.
 #[test]
 fn ccx_rubs_alike_but_for_its_penalty() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     let mut scene = Scene::open("strand").unwrap();
@@ -231,7 +213,7 @@ fn ccx_rubs_alike_but_for_its_penalty() {
 /// ccx's own contact beside `unilateral` without friction.
 #[test]
 fn ccx_finds_the_same_contact_but_for_its_penalty() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     for (name, mut scene) in scenes() {
@@ -252,7 +234,7 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
 /// with both components where nothing slides.
 #[test]
 fn ccx_finds_what_the_corrected_algorithm_finds() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     let scene = Scene::open("strand").unwrap();
@@ -273,53 +255,4 @@ fn export_writes_the_deck() {
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
-}
-
-#[test]
-fn compare_prints_tables_or_json_and_writes_tables() {
-    if !ccx_is_there() {
-        return;
-    }
-    let folder = TempDir::new().unwrap();
-    let compare = ["compare", "fig1", "--with", "calculix", "--variant", "tied"];
-    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
-    for words in ["beside CalculiX 2", "8 equations", "Largest differences", "The worst nodes"] {
-        assert!(tables.contains(words), "{words:?}: {tables}");
-    }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
-    let with = |more: &[&str]| program::run(folder.path(), &[&compare[..], more].concat());
-    let document = |more: &[&str]| -> Value {
-        serde_json::from_slice(&with(&[&["--json"], more].concat()).stdout).unwrap()
-    };
-    let unjudged = document(&[]);
-    assert_eq!(unjudged.get("is_same"), None);
-    assert_eq!(unjudged["calculix"]["contact"], json!({"kind": "equation", "equations": 8}));
-    assert_eq!(unjudged["nodes"].as_array().unwrap().len(), 13);
-    assert_eq!(unjudged["worst_nodes"].as_array().unwrap().len(), 10);
-    assert_eq!(document(&["--rtol", "1e-5"])["is_same"], true);
-    let exact = with(&["--rtol", "0", "--csv", "tables"]);
-    assert_eq!(exact.status.code(), Some(1));
-    let printed = String::from_utf8(exact.stdout).unwrap();
-    assert!(printed.contains("Differs by more than --rtol 0 (energy norm"), "{printed}");
-    assert!(folder.path().join("tables/the-worst-nodes.csv").is_file());
-}
-
-/// Bodies that lie flush at c_tll = 1e-17: who is in contact is decided by rounding in f64, and not in
-/// the double-doubles that are compared.
-#[test]
-fn compare_repeats_in_double_doubles_where_rounding_decides() {
-    if !ccx_is_there() {
-        return;
-    }
-    let mut scene = scene_json("two-blocks");
-    scene["contact"]["c_tll"] = 1e-17.into();
-    let folder = TempDir::new().unwrap();
-    std::fs::write(folder.path().join("flush.json"), scene.to_string()).unwrap();
-    let compare = ["compare", "flush.json", "--with", "calculix", "--variant", "tied"];
-    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
-    let words = "the last digit of the inputs decides who is in contact in f64; this is the run in double-doubles";
-    assert!(tables.contains(words), "{tables}");
-    let json = program::run(folder.path(), &[&compare[..], &["--json"]].concat()).stdout;
-    let document: Value = serde_json::from_slice(&json).unwrap();
-    assert_eq!(document["calculix"]["certainty"], "in-double-double");
 }

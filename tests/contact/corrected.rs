@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::common::annulus::annulus;
-use crate::common::tolerances::{CORRECTED, Tolerance, assert_near};
+use crate::common::tolerances::{CORRECTED, assert_near};
 use nalgebra::DVector;
 use plane_contact::engine::contact::Surfaces;
 use plane_contact::engine::{Request, Stiffness, solve};
@@ -21,12 +21,12 @@ use plane_contact::studies::benchmark::Hertz;
 use testing::bodies::Writing;
 use testing::drawn::{Drawn, Kind, Support, scenes};
 
-/// What is left of the conditions of contact under the corrected algorithm, relative to the
-/// largest displacement, respectively load.
-const CORRECTED_CONDITIONS: Tolerance = Tolerance {
-    limit: 1e-9,
-    reason: "a factorisation of up to 2,300 equations in f64, whose residual is 1e-12 of the loads",
-};
+testing::tolerances! {
+    /// What is left of the conditions of contact under the corrected algorithm, relative to the largest displacement,
+    /// respectively load.
+    CORRECTED_CONDITIONS = 1e-9,
+        "a factorisation of up to 2,300 equations in f64, whose residual is 1e-12 of the loads";
+}
 
 /// The iterations of the paper.
 const STEPS: usize = 20;

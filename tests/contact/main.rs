@@ -2,12 +2,11 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden_floats, rows, tolerances};
+    pub use testing::{annulus, golden_file, rows, same_text, tolerances};
 
     pub mod letter;
     pub mod outcome;
     pub mod program;
-    pub mod same_text;
     pub mod tools;
 }
 

@@ -20,17 +20,17 @@ use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::common::tools::has_node;
 use testing::bodies::Writing;
 use testing::drawn::scenes;
 
-/// Displacements of the page's iterations beside the engine's, relative to the largest.
-const PAGE_ITERATIONS: Tolerance = Tolerance {
-    limit: 1e-9,
-    reason: "two factorisations of up to 200 equations in f64, and a shape from which the coordinates are \
-         taken off again: 1e-12; the issue's own number",
-};
+testing::tolerances! {
+    /// Displacements of the page's iterations beside the engine's, relative to the largest.
+    PAGE_ITERATIONS = 1e-9,
+        "two factorisations of up to 200 equations in f64, and a shape from which the coordinates are taken off \
+         again: 1e-12; the issue's own number";
+}
 
 /// The number of random scenes.
 const DRAWN: usize = 40;

@@ -4,8 +4,6 @@
 //! States are o open, s sticks, f and b slips forward and backward, c slips without friction. A number is `zero` up to
 //! 1e-10 of the largest force, or 1e-12 of a gap; a list of zeros is left out, and what a search tried on springs too.
 
-use std::path::Path;
-
 use plane_contact::engine::contact::ContactNode;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::{self, Request, Solution, share_of_load};
@@ -13,26 +11,26 @@ use plane_contact::error::InputError;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::scene::Scene;
 
+use crate::common::golden_file::assert_rows_by;
 use crate::common::letter::letter;
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 
 /// Asks for the first contact state alone.
 const START: &str = " only=start";
 
-/// A displacement in a scene a million of its sizes from the origin, relative to itself.
-const FAR_FROM_THE_ORIGIN: Tolerance = Tolerance {
-    limit: 1e-6,
-    reason: "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a \
-         thousand times less",
-};
+testing::tolerances! {
+    /// A displacement in a scene a million of its sizes from the origin, relative to itself.
+    FAR_FROM_THE_ORIGIN = 1e-6,
+        "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a thousand times less";
+}
 
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/contact/scenes");
 
 #[test]
 fn scenes_by_hand() {
-    assert_rows(&Path::new(FOLDER).join("rows.txt"), same_text, answer);
+    assert_rows_by(format!("{FOLDER}/rows.txt"), same_text, answer);
 }
 
 #[test]

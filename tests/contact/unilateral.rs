@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::common::tolerances::{BALANCE, Tolerance, assert_near};
+use crate::common::tolerances::{BALANCE, assert_near};
 use plane_contact::engine::contact::{ContactNode, Status};
 use plane_contact::engine::{self, Detail, Request, Solution, Step, distance};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
@@ -10,14 +10,13 @@ use plane_contact::problem::scene::{Axis, SCENES, Scene};
 use plane_contact::studies::benchmark::{Blocks, Hertz, Punch};
 use testing::bodies::{Bodies, Writing, grid};
 
-/// Contact in the current shape beside contact in the initial one at a load of a thousandth of
-/// CGS-1's, relative to the peak.
-const CURRENT_LENGTHS: Tolerance =
-    Tolerance { limit: 2e-3, reason: "strains of 1e-3 at the contact: the two differ by as much" };
-
-/// Gap times force of a contact node relative to size times the largest force; penetration
-/// relative to the size.
-const COMPLEMENTARITY: Tolerance = Tolerance { limit: 1e-12, reason: "the issue's own number" };
+testing::tolerances! {
+    /// Contact in the current shape beside contact in the initial one at a load of a thousandth of CGS-1's, relative to
+    /// the peak.
+    CURRENT_LENGTHS = 2e-3, "strains of 1e-3 at the contact: the two differ by as much";
+    /// Gap times force of a contact node relative to size times the largest force; penetration relative to the size.
+    COMPLEMENTARITY = 1e-12, "the issue's own number";
+}
 
 /// Both directions.
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];
@@ -68,16 +67,6 @@ fn iterations(solution: &Solution) -> usize {
     loads.chunk_by(|a, b| a == b).map(<[u64]>::len).max().unwrap_or(0)
 }
 
-/// Larger extent of the scene.
-fn size(solution: &Solution) -> f64 {
-    let extent = |axis: usize| {
-        let values = solution.model.nodes.iter().map(|place| place[axis]);
-        let (l, h) = values.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-        h - l
-    };
-    extent(0).max(extent(1))
-}
-
 /// Twice as thick bodies under twice the forces move as before, by the same pressures and shears.
 #[test]
 fn tractions_are_forces_over_length_and_thickness() {
@@ -107,7 +96,7 @@ fn assert_equilibrium(name: &str, scene: &Scene, model: ContactModel) {
     let load = fx.hypot(fy);
     assert_near(&what("force on the target"), solution.target_force(), load, load, &BALANCE);
     assert!(iterations(&solution) <= ITERATIONS, "{}", what(&iterations(&solution).to_string()));
-    let size = size(&solution);
+    let size = solution.model.bounds().larger_side();
     let most = solution.contact.iter().map(force).fold(0.0, f64::max);
     assert!(most > 0.0, "{}", what("nothing presses"));
     for node in &solution.contact {

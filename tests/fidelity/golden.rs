@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use crate::common::golden_floats::assert_golden;
+use crate::common::golden_file::assert_text;
+use crate::common::same_text::same_text;
 use plane_contact::engine::Request;
 use plane_contact::mathcad::array::Table;
 use plane_contact::paper::door;
@@ -61,8 +62,8 @@ fn mjs_of_fig1() {
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
     let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap().to_table();
     let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap().to_table();
-    assert_golden("fig1", "MJS", &rows(&coupled));
-    assert_golden("fig1", "MJS-coupled-by-none", &rows(&free));
+    assert_text("golden/fig1/MJS", &rows(&coupled), same_text);
+    assert_text("golden/fig1/MJS-coupled-by-none", &rows(&free), same_text);
 }
 
 fn rows(matrix: &Table<f64>) -> String {

@@ -3,7 +3,7 @@
 #[path = "../common"]
 mod common {
     pub use testing::{
-        draws, embedded, golden_file, golden_floats, json, random, rows, tolerances,
+        draws, embedded, golden_file, json, page, random, rows, same_text, tolerances,
     };
 
     pub mod outcome;

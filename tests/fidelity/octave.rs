@@ -17,19 +17,14 @@ use tempfile::TempDir;
 use crate::common::program::run;
 use crate::common::random::fixed;
 use crate::common::tolerances::{OCTAVE, assert_near};
+use crate::common::tools::has;
 use testing::worksheets::{draw, initial, reading, worksheet};
 
 /// What Octave printed of a program: by name, the numbers column by column; nothing if it failed.
 type Printed = BTreeMap<String, Vec<f64>>;
 
-/// Whether Octave is there, as it must be where `REQUIRE_OCTAVE` is set.
 fn octave_is_there() -> bool {
-    let there = Command::new("octave-cli").arg("--version").output().is_ok();
-    assert!(there || std::env::var_os("REQUIRE_OCTAVE").is_none(), "Octave is required");
-    if !there {
-        eprintln!("Octave is not installed: the exported listings are not executed by it");
-    }
-    there
+    has("octave-cli --version", "REQUIRE_OCTAVE")
 }
 
 /// Runs the scripts in `folder`, each in turn, from another folder.

@@ -1,10 +1,9 @@
 //! The tables of readings and of findings that the program's own tables give: `listings/READING.md`, section 4,
 //! and the section after it. INSTA_UPDATE=always writes them.
 
-use std::path::Path;
-
 use crate::citations::READING;
 use crate::common::golden_file::assert_file;
+use crate::common::page::{self, markdown};
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::{Ambiguity, DefaultFrom, READINGS};
 use plane_contact::studies::audit::Case;
@@ -15,20 +14,13 @@ const PAGE: &str = "README.md";
 
 #[test]
 fn the_tables_of_readings_and_findings_are_the_programs() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(READING);
-    let page = std::fs::read_to_string(&path).expect("the page is there");
-    let readings: String = READINGS.iter().map(reading).collect();
-    let readings = format!(
-        "| id | lines | open | values, the default first | why this default |\n\
-         |---|---|---|---|---|\n{readings}"
-    );
-    let findings: String = FINDINGS.iter().map(finding).collect();
-    let findings = format!(
-        "| id | line | what the listing does | on the smallest scene | repair |\n\
-         |---|---|---|---|---|\n{findings}"
-    );
+    let page = std::fs::read_to_string(READING).expect("the page is there");
+    let head = "id | lines | open | values, the default first | why this default";
+    let readings = markdown(head, READINGS.iter().map(reading));
+    let head = "id | line | what the listing does | on the smallest scene | repair";
+    let findings = markdown(head, FINDINGS.iter().map(finding));
     let page = filled(&page, "readings", &readings);
-    assert_file(&path, &filled(&page, "findings", &findings));
+    assert_file(READING, &filled(&page, "findings", &findings));
 }
 
 /// Returns a page with `text` between the comments `name` and `end`.
@@ -48,7 +40,7 @@ fn reading(row: &Ambiguity) -> String {
         DefaultFrom::Variant => "the variant's; ",
     };
     let values = default.to_string() + &values.join("; ");
-    line(&[row.id, row.lines, row.what, &values, row.why])
+    page::row(&[row.id, row.lines, row.what, &values, row.why])
 }
 
 fn finding(finding: &Finding) -> String {
@@ -60,11 +52,5 @@ fn finding(finding: &Finding) -> String {
     let value = format!("{:.3}", measured.number.expect("a number"));
     let value = value.trim_end_matches('0').trim_end_matches('.');
     let shown = format!("{value} = {}", finding.number);
-    line(&[&id, lines.trim_end(), finding.title, &shown, finding.repair])
-}
-
-/// Returns a row of a table in Markdown.
-fn line(cells: &[&str]) -> String {
-    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-    format!("| {} |\n", cells.join(" | "))
+    page::row(&[&id, lines.trim_end(), finding.title, &shown, finding.repair])
 }

@@ -4,7 +4,7 @@ use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::rows::scene_of;
-use crate::common::tolerances::{BALANCE, Tolerance, assert_near};
+use crate::common::tolerances::{BALANCE, assert_near};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Solver};
 use plane_contact::engine::{self, Detail, FoundPairs, Request, Solution, Step};
@@ -15,23 +15,14 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
-/// Relative residual of a solution.
-const RESIDUAL: Tolerance = Tolerance {
-    limit: 1e-14,
-    reason: "LU with partial pivoting is backward stable: some eps = 2e-16 with growth",
-};
-
-/// A scene beside its mirror image, relative to the largest displacement.
-const MIRRORED: Tolerance = Tolerance {
-    limit: 1e-11,
-    reason: "the same equations in another order: 1e-16 times a condition number of 1e3",
-};
-
-/// `two-blocks` against its closed form, relative to the closed form.
-const CLOSED_FORM: Tolerance = Tolerance {
-    limit: 1e-12,
-    reason: "some 40 equations of condition 1e2 in f64; the issue's own number",
-};
+testing::tolerances! {
+    /// Relative residual of a solution.
+    RESIDUAL = 1e-14, "LU with partial pivoting is backward stable: some eps = 2e-16 with growth";
+    /// A scene beside its mirror image, relative to the largest displacement.
+    MIRRORED = 1e-11, "the same equations in another order: 1e-16 times a condition number of 1e3";
+    /// `two-blocks` against its closed form, relative to the closed form.
+    CLOSED_FORM = 1e-12, "some 40 equations of condition 1e2 in f64; the issue's own number";
+}
 
 fn run(request: &Request) -> Result<Solution, Error> {
     engine::solve(request, &mut |_| ())

@@ -2,17 +2,17 @@
 //! it says that it cannot.
 
 use std::cell::Cell;
-use std::path::Path;
 
+use crate::common::golden_file::assert_rows;
 use crate::common::json::build;
 use crate::common::random::fixed;
-use crate::common::rows::{assert_rows, scene_of, two_and_scene};
+use crate::common::rows::{scene_of, two_and_scene};
 use dashu_ratio::RBig;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Inputs, ScalarName};
 use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::numbers::scalar::rational;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Variant};
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::trade::trial_tables as report;
 use plane_contact::studies::trade::{Rounding, solve_to};
@@ -185,7 +185,7 @@ fn precisions_are_tried_from_the_cheapest() {
         });
         tried.collect::<Vec<_>>().join(", ")
     };
-    assert_rows(Path::new("tests/program/accuracy/rows.txt"), |golden, is| golden == is, answer);
+    assert_rows("tests/program/accuracy/rows.txt", answer);
 }
 
 /// f32 rounds coordinates far from the origin: no number of its run shows that.
@@ -240,49 +240,4 @@ fn decimal_loads_are_multiplied_exactly() {
     let nodal = square(&format!("/thickness=0.7 /loads=[{},{}]", at(3), at(4)));
     let nodal = Request::new(&nodal).variant(Variant::Tied);
     assert_eq!(run(&request).digits, run(&nodal).digits);
-}
-
-/// What is asked, of which scene, and the words of the refusal: no precision suffices, each for its own
-/// reason, and none is passed over in silence.
-#[test]
-fn what_no_precision_reaches_is_refused_with_every_reason() {
-    let open = |name: &str| Request::new(&Scene::open(name).expect("an embedded scene"));
-    let large = open("strand");
-    let mortar = ContactModel { coupling: Coupling::Mortar, ..large.contact };
-    let cases: [(&str, Request, f64, &[&str]); 4] = [
-        (
-            "exact numbers would take too long",
-            large.clone().variant(Variant::Tied),
-            1e-33,
-            &["f64x2: its digits are too few", "exact: it takes too long", "ask for less"],
-        ),
-        (
-            "stepped too, where double-doubles have the digits and rounding takes them",
-            large.clone().variant(Variant::Stepped),
-            1e-31,
-            &["f64x2: measured", "exact: it takes too long"],
-        ),
-        (
-            "mortar takes square roots",
-            large.clone().contact(mortar).variant(Variant::Tied),
-            1e-35,
-            &["f64: its digits are too few", "f64x2: its digits are too few"],
-        ),
-        (
-            "of exact displacements 40 digits are written",
-            open("two-blocks").variant(Variant::Tied),
-            1e-45,
-            &["f64: its digits are too few", "exact: its digits are too few"],
-        ),
-    ];
-    for (what, request, accuracy, words) in cases {
-        let refused = solve_to(&request, accuracy).expect_err(what);
-        assert_eq!(refused.exit_status().number(), 2, "{what}: {refused}");
-        let said = refused.to_string();
-        assert!(
-            said.contains(&format!("no precision meets an accuracy of {accuracy:e}")),
-            "{said}"
-        );
-        words.iter().for_each(|word| assert!(said.contains(word), "{what}, {word:?}: {said}"));
-    }
 }

@@ -9,30 +9,77 @@ use serde_json::Value;
 
 use crate::common::program::json;
 use crate::common::tolerances::{CLAIM, assert_near};
+use crate::texts;
 use plane_contact::Scene;
 use plane_contact::engine::{Request, distance, solve};
+use plane_contact::output::json::line;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
-use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::claim_tables::ESTIMATES;
 use plane_contact::studies::audit::claims::{
     Basis, CLAIMS, ClaimId, JudgedClaim, Scope, Verdict, judge,
 };
 use plane_contact::studies::audit::evidence::BY_ROUNDING;
+use plane_contact::studies::audit::prices::Price;
 use plane_contact::studies::audit::range::{Parameter, Range, range};
-use plane_contact::studies::audit::words::WIDER;
+use plane_contact::studies::audit::words::{self, Depth, WIDER, WIDTH};
+use plane_contact::studies::audit::{Case, audit};
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
 }
+
+static CASE: LazyLock<Case> = LazyLock::new(|| open("strand"));
 
 /// The range of what the paper leaves open, whose runs are made once for all tests.
 pub static RANGE: LazyLock<Range> =
     LazyLock::new(|| range(Reading::default()).expect("its values are allowed"));
 
 /// The claims on the paper's example over the range.
-pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
-    LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
+pub static JUDGED: LazyLock<Vec<JudgedClaim>> = LazyLock::new(|| judge(CLAIMS, &CASE, &RANGE));
+
+/// What `audit` prints of a scene: its first screen, all, and the JSON.
+pub struct Audited {
+    pub screen: String,
+    pub full: String,
+    json: Value,
+    /// What each printed fault costs.
+    pub prices: Vec<Price>,
+}
+
+impl Audited {
+    fn new(case: &Case) -> Self {
+        let audit = audit(case, &Range::new(), true, &|| ());
+        let report = |depth, width| words::report(&audit, depth).text(width);
+        Audited {
+            screen: report(Depth::Screen, WIDTH),
+            full: report(Depth::Full, usize::MAX),
+            json: serde_json::from_str(&line(Some(&audit.scene), &audit)).expect("JSON"),
+            prices: audit.prices.expect("it has a solution"),
+        }
+    }
+}
+
+/// The audit of the paper's example, which takes 42 s of a processor, once for all tests.
+pub static STRAND: LazyLock<Audited> = LazyLock::new(|| Audited::new(&CASE));
+
+/// What a command prints as JSON; of the audit of strand what the program would.
+fn printed(command: &[&str]) -> Value {
+    match command {
+        ["audit", "strand", "--json"] => STRAND.json.clone(),
+        _ => json(command),
+    }
+}
+
+#[test]
+fn the_program_prints_what_an_audit_finds() {
+    let ([screen, full], json) = (
+        [&["audit", "fig1"][..], &["audit", "fig1", "--full"]].map(texts::printed),
+        json(&["audit", "fig1", "--json"]),
+    );
+    let audited = Audited::new(&open("fig1"));
+    assert!(audited.json == json && audited.screen == screen && audited.full == full);
+}
 
 /// A claim on the paper's example over the range.
 pub fn judged(id: ClaimId) -> &'static JudgedClaim {
@@ -41,12 +88,12 @@ pub fn judged(id: ClaimId) -> &'static JudgedClaim {
 
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
-    let mut printed: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
+    let mut known: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
     // What is measured on random scenes stands in a table.
     for judged in JUDGED.iter().filter(|judged| judged.claim.basis != Basis::Random) {
         let (id, number) = (judged.claim.id.name(), judged.measured.number);
         let command: Vec<&str> = judged.command.iter().map(String::as_str).collect();
-        let json = printed.entry(command).or_insert_with_key(|command| json(command));
+        let json = known.entry(command).or_insert_with_key(|command| printed(command));
         let at = |pointer: &String| {
             let value = json.pointer(pointer).and_then(Value::as_f64);
             value.unwrap_or_else(|| panic!("{id}: no number at {pointer}"))
@@ -245,7 +292,7 @@ fn distances<'a>(audit: &'a Value, list: &str, at: &'a str) -> impl Iterator<Ite
 #[test]
 fn a_conclusion_has_the_numbers_of_its_rows() {
     for scene in ["strand", "fig1", "two-blocks"] {
-        let audit = json(&["audit", scene, "--json"]);
+        let audit = printed(&["audit", scene, "--json"]);
         let conclusion = |at: &str| audit["conclusion"].pointer(at).and_then(Value::as_f64);
         let k1 = json(&["audit", scene, "--finding", "K1", "--json"]);
         assert_eq!(conclusion("/coupled/joins"), k1["number"].as_f64(), "{scene}");

@@ -2,9 +2,9 @@
 
 use tempfile::TempDir;
 
-use crate::common::golden::assert_golden_by;
+use crate::common::golden_file::assert_text;
 use crate::common::program::run;
-use crate::texts::same_text;
+use crate::common::same_text::same_text;
 
 /// The text of the report of fig1, a line for each line of its page, but for the hash of the program.
 #[test]
@@ -21,5 +21,5 @@ fn what_a_report_says() {
     let text: String = words.collect();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let lines: Vec<&str> = lines.filter(|line| !line.starts_with("program, SHA-256")).collect();
-    assert_golden_by("fig1", "report", &lines.join("\n"), same_text);
+    assert_text("golden/fig1/report", &lines.join("\n"), same_text);
 }

@@ -30,22 +30,6 @@ fn a_scene_of_ones_own_is_solved_and_an_error_explained() {
 }
 
 #[test]
-fn the_first_scene_of_the_guide_runs() {
-    let folder = tempfile::TempDir::new().expect("a folder");
-    let run = |args: &[&str]| {
-        let output = crate::common::program::run(folder.path(), args);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    };
-    run(&["scene", "mesh", "punch", "--out", "my"]);
-    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide/scenes.md");
-    let page = std::fs::read_to_string(page).expect("the page");
-    let (_, rest) = page.split_once("```json\n").expect("a scene");
-    let (scene, _) = rest.split_once("```").expect("its end");
-    std::fs::write(folder.path().join("my/scene.json"), scene).expect("written");
-    run(&["solve", "my", "--no-pictures", "--no-assessment", "--out", "o"]);
-}
-
-#[test]
 fn a_snapshot_is_recorded_once_and_then_verified() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let path = folder.path().join("s.json");
@@ -56,23 +40,4 @@ fn a_snapshot_is_recorded_once_and_then_verified() {
     std::fs::write(&path, text.replacen("\"iterations\": 20", "\"iterations\": 19", 1))
         .expect("written");
     assert!(!snapshot_in_a_test::check("fig1", &path).expect("it runs"));
-}
-
-/// The library without the command line needs nothing of it.
-#[test]
-fn a_library_has_no_clap() {
-    let tree = |more: &[&str]| {
-        let mut cargo = std::process::Command::new(env!("CARGO"));
-        cargo.args(["tree", "--offline", "--locked", "--edges", "normal", "--prefix", "none"]);
-        let output = cargo.args(more).current_dir(env!("CARGO_MANIFEST_DIR")).output();
-        let output = output.expect("cargo");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    let has = |tree: &str, name: &str| tree.lines().any(|line| line.starts_with(name));
-    assert!(has(&tree(&["-p", "plane-contact"]), "clap "));
-    let library = tree(&["-p", "plane-contact", "--no-default-features"]);
-    for name in ["clap", "indicatif", "plane-contact-studies", "plane-contact-commands"] {
-        assert!(!has(&library, &format!("{name} ")), "{name}: {library}");
-    }
 }

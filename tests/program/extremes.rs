@@ -3,24 +3,20 @@
 
 use std::sync::LazyLock;
 
-use crate::common::golden::assert_golden_by;
-use crate::common::tolerances::Tolerance;
+use crate::common::golden_file::assert_text;
 use plane_contact::studies::extremes::digit_tables as report;
 use plane_contact::studies::extremes::{Column, GENERATORS, Kept, SweepTable, measure};
 
-/// The exponent of a breaking point of `extremes`.
-const EXTREME_DECADES: Tolerance = Tolerance {
-    limit: 1.0,
-    reason: "half a digit more or less moves the point where three are left by half a decade; it is \
-         bisected to half of one, and rounded",
-};
-
-/// Right digits in a cell of `extremes`, before they are cut off to whole ones.
-const EXTREME_DIGITS: Tolerance = Tolerance {
-    limit: 0.5,
-    reason: "the LU library sums in another order on another processor: an error may be three times \
-         larger or smaller by chance",
-};
+testing::tolerances! {
+    /// The exponent of a breaking point of `extremes`.
+    EXTREME_DECADES = 1.0,
+        "half a digit more or less moves the point where three are left by half a decade; it is bisected to half of \
+         one, and rounded";
+    /// Right digits in a cell of `extremes`, before they are cut off to whole ones.
+    EXTREME_DIGITS = 0.5,
+        "the LU library sums in another order on another processor: an error may be three times larger or smaller by \
+         chance";
+}
 
 fn text(measured: &[SweepTable]) -> String {
     report::report(measured).text(usize::MAX)
@@ -31,7 +27,7 @@ static MEASURED: LazyLock<Vec<SweepTable>> =
 
 #[test]
 fn the_table_is_the_golden_one() {
-    assert_golden_by("extremes", "table", &text(&MEASURED), |golden, table| {
+    assert_text("golden/extremes/table", &text(&MEASURED), |golden, table| {
         let near = [-1.0, 1.0].map(|side| text(&moved(side * EXTREME_DIGITS.limit)));
         same_table(golden, [table, &near[0], &near[1]])
     });

@@ -9,27 +9,19 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tolerances::{Tolerance, assert_near};
-use crate::common::tools::is_there;
+use crate::common::tolerances::assert_near;
+use crate::common::tools::has;
 
-/// Forces and pressures of the five problems meshed by Gmsh, relative to the textbook's.
-const GMSH: Tolerance = Tolerance {
-    limit: 0.03,
-    reason: "meshes of 400 to 3,400 nodes: 0.3 % was measured at the press fit, 0.2 % at the cylinders, 1 % at the \
-         punch and the ring, whose thickness is a tenth of its radius",
-};
-
-/// Whether Gmsh is installed, as it must be where `REQUIRE_GMSH` is set.
-fn has_gmsh() -> bool {
-    let mut gmsh = Command::new("gmsh");
-    gmsh.arg("--version");
-    is_there(gmsh, "REQUIRE_GMSH")
+testing::tolerances! {
+    /// Forces and pressures of the five problems meshed by Gmsh, relative to the textbook's.
+    GMSH = 0.03,
+        "meshes of 400 to 3,400 nodes: 0.3 % was measured at the press fit, 0.2 % at the cylinders, 1 % at the punch \
+         and the ring, whose thickness is a tenth of its radius";
 }
 
 /// What the program has for a scene of the folder `gmsh`, whose mesh is made here; nothing without Gmsh.
 fn solved(name: &str, edit: impl Fn(String) -> String) -> Option<(Option<i32>, Value)> {
-    if !has_gmsh() {
-        eprintln!("gmsh is not installed: {name} is not solved");
+    if !has("gmsh --version", "REQUIRE_GMSH") {
         return None;
     }
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/gmsh");

@@ -2,11 +2,12 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden, golden_file, json, random, rows, tolerances};
+    pub use testing::{
+        annulus, embedded, golden_file, json, page, random, rows, same_text, tolerances,
+    };
 
     pub mod conforming;
     pub mod program;
-    pub mod same_text;
     pub mod tools;
 }
 
@@ -30,10 +31,8 @@ mod plan;
 mod printed;
 mod printed_numbers;
 mod prose;
-mod recipes;
 mod result_file;
 mod scenes;
-mod shells;
 mod snapshots;
 mod statuses;
 mod sweeps;

@@ -18,8 +18,9 @@ use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::common::golden_file::is_written;
 use crate::common::program::run;
-use crate::common::tools::{browser, is_there};
+use crate::common::tools::{browser, has_ccx};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -55,7 +56,7 @@ fn in_browser(modules: &Path, script: &str, args: &[&str]) {
 fn keep_picture(folder: &Path, name: &str) {
     let picture = folder.join(name);
     assert!(picture.exists(), "{name} was taken");
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if is_written() {
         std::fs::copy(picture, Path::new(ROOT).join("golden/pages").join(name)).expect("a file");
     }
 }
@@ -210,9 +211,7 @@ fn a_report_has_hertz_and_calculix_beside_the_runs() {
     };
     made(folder.path(), "mesh", &["scene", "mesh", "hertz", "--size", "10"]);
     report("hertz", &["out/mesh-hertz"]);
-    let mut ccx = Command::new("sh");
-    ccx.args(["-c", "command -v ccx"]);
-    if is_there(ccx, "REQUIRE_CCX") {
+    if has_ccx() {
         report("calculix", &["fig1", "--ccx"]);
     }
 }

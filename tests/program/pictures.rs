@@ -2,8 +2,6 @@
 //!
 //! Words and the order of everything are exact; a coordinate may differ by a tenth of a pixel.
 
-use std::path::Path;
-
 use tempfile::TempDir;
 
 use crate::common::golden_file::assert_file_by;
@@ -42,7 +40,6 @@ fn shipped_pictures_are_drawn_anew() {
         assert!(run(folder.path(), &["solve", scene, "--out", &out]).status.success(), "{scene}");
         let drawn = folder.path().join(out).join(picture);
         let drawn = std::fs::read_to_string(drawn).expect("it was drawn");
-        let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
-        assert_file_by(&golden.join(scene).join(picture), &drawn, same_picture);
+        assert_file_by(format!("golden/{scene}/{picture}"), &drawn, same_picture);
     }
 }

@@ -2,15 +2,14 @@
 //!
 //! A row of `plan.txt` is a variant, a solver or `-`, and a scene of `golden` as `testing::rows` has it.
 
-use std::path::Path;
-
 use plane_contact::engine::linear::Arithmetic;
 use plane_contact::engine::plan::{Idle, Plan};
 use plane_contact::engine::{Request, solve};
 use plane_contact::output::plan::line;
 use serde_json::json;
 
-use crate::common::rows::{assert_rows, scene_of, two_and_scene};
+use crate::common::golden_file::assert_rows;
+use crate::common::rows::{scene_of, two_and_scene};
 
 #[test]
 fn plans() {
@@ -35,5 +34,5 @@ fn plans() {
         });
         format!("{found}\n{}", line(&plan))
     };
-    assert_rows(Path::new("tests/program/plan.txt"), |golden, is| golden == is, answer);
+    assert_rows("tests/program/plan.txt", answer);
 }

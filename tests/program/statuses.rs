@@ -9,8 +9,6 @@
 mod counted;
 mod drawn;
 
-use std::path::Path;
-
 use fastrand::Rng;
 use plane_contact::Scene;
 use plane_contact::engine::contact::status::statuses;
@@ -21,8 +19,7 @@ use plane_contact::problem::modelling::StatusRule;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::{Claim, ClaimId};
 
-use crate::common::golden_file::assert_file;
-use crate::tables::{markdown, percent};
+use crate::common::page::{assert_table, markdown, percent};
 use counted::{Counted, counting};
 use drawn::{DrawnScene, Kind, draw};
 
@@ -125,20 +122,16 @@ fn status_rules() {
     let head = format!(
         "depth of the jump over c_tll | target lies | nodes in contact | of them missed by `{signs}` | {heads}"
     );
-    let text = format!(
-        "**Status rules on random scenes whose contact is known, {SCENES} for each row.** Made by the \
-         test `status_rules`.\n\n{}",
-        markdown(&head, rows)
-    );
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/statuses.md");
-    assert_file(&file, &text);
+    let title =
+        format!("Status rules on random scenes whose contact is known, {SCENES} for each row.");
+    let source = "Made by the test `status_rules`";
+    assert_table("statuses", &title, source, &markdown(&head, rows));
 }
 
 /// P6 and P8 quote the table.
 #[test]
 fn the_claims_on_random_scenes_are_those_of_the_table() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/statuses.md");
-    let table = std::fs::read_to_string(file).expect("the table");
+    let table = std::fs::read_to_string("golden/tables/statuses.md").expect("the table");
     let row = |starts: &str| -> Vec<&str> {
         let row = table.lines().rfind(|line| line.starts_with(starts)).expect("a row");
         row.split('|').map(str::trim).collect()

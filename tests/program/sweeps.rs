@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::ran;
-use crate::common::tools::{has_python, is_there};
+use crate::common::tools::has;
 
 /// A folder with `sweep.json`.
 fn folder(sweep: &Value) -> TempDir {
@@ -124,25 +124,21 @@ with LocalCluster() as cluster:
 
 #[test]
 fn any_name_reaches_make() {
-    let mut program = Command::new("make");
-    program.arg("--version");
-    if is_there(program, "REQUIRE_MAKE") {
+    if has("make --version", "REQUIRE_MAKE") {
         names_reach("make", |at| succeeds(Command::new("make").args(["-j2", "-f", "jobs"]), at));
     }
 }
 
 #[test]
 fn any_name_reaches_hyperqueue() {
-    if has_python("hyperqueue", "REQUIRE_HYPERQUEUE") {
+    if has("python3 -c 'import hyperqueue'", "REQUIRE_HYPERQUEUE") {
         names_reach("hyperqueue", |at| succeeds(Command::new("python3").args(["-c", CLUSTER]), at));
     }
 }
 
 #[test]
 fn any_name_reaches_snakemake() {
-    let mut program = Command::new("snakemake");
-    program.arg("--version");
-    if is_there(program, "REQUIRE_SNAKEMAKE") {
+    if has("snakemake --version", "REQUIRE_SNAKEMAKE") {
         let args = ["-s", "jobs", "--cores", "2"];
         names_reach("snakemake", |at| succeeds(Command::new("snakemake").args(args), at));
     }
@@ -152,7 +148,7 @@ fn any_name_reaches_snakemake() {
 /// nothing is lost.
 #[test]
 fn hyperqueue_runs_two_hundred_jobs_with_its_workers_killed_in_the_middle() {
-    if !has_python("hyperqueue", "REQUIRE_HYPERQUEUE") {
+    if !has("python3 -c 'import hyperqueue'", "REQUIRE_HYPERQUEUE") {
         return;
     }
     let folder = folder(&of_fig1(200));

@@ -1,8 +1,6 @@
 //! The tables under `golden/tables`, which pages quote: each is made from what the program computes.
 //! `INSTA_UPDATE=always` writes them anew.
 
-use std::path::Path;
-use std::process::Command;
 use std::sync::LazyLock;
 
 use plane_contact::engine::estimates::{Certainty, Estimates};
@@ -30,20 +28,19 @@ use plane_contact::studies::calculix::{Pair, RECORDED, run};
 use plane_contact::studies::trade;
 use plane_contact::{Request, Scene};
 
-use crate::claims::JUDGED;
+use crate::claims::{self, JUDGED};
 use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
-use crate::common::tolerances::{CORRECTED, Tolerance, assert_near};
+use crate::common::page::{self, assert_table, markdown, percent};
+use crate::common::tolerances::{CORRECTED, assert_near};
+use crate::common::tools::has_ccx;
 
-/// Persson's peak pressure of the strand, relative to that of fine meshes.
-const CURVED: Tolerance =
-    Tolerance { limit: 2e-2, reason: "it has not Dundurs' β, which is 0.30 here: measured 1.8 %" };
-
-/// The peak pressure of the strand on meshes with true arcs, relative to a finer mesh's, and Hertz's.
-const TRUE_ARCS: Tolerance = Tolerance {
-    limit: 1e-2,
-    reason: "the issue's own number; measured 0.7 % at 0.2 mm, 0.1 % of Hertz's",
-};
+testing::tolerances! {
+    /// Persson's peak pressure of the strand, relative to that of fine meshes.
+    CURVED = 2e-2, "it has not Dundurs' β, which is 0.30 here: measured 1.8 %";
+    /// The peak pressure of the strand on meshes with true arcs, relative to a finer mesh's, and Hertz's.
+    TRUE_ARCS = 1e-2, "the issue's own number; measured 0.7 % at 0.2 mm, 0.1 % of Hertz's";
+}
 
 static STRAND: LazyLock<Scene> =
     LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));
@@ -63,31 +60,6 @@ static VARIANTS: LazyLock<[Solution; 6]> = LazyLock::new(|| {
     runs.map(|request| solve(&request, &mut |_| ()).expect("strand has a solution"))
 });
 
-/// Asserts that `golden/tables/<name>.md` has a title, where its numbers come from (a command that prints them, or this
-/// test), and a table.
-#[track_caller]
-fn assert_table(name: &str, title: &str, source: &str, table: &str) {
-    let source = match source {
-        "" => format!("Made by the test `{name}`"),
-        command => format!("Printed by `plane-contact {command}`"),
-    };
-    let text = format!("**{title}** {source}.\n\n{table}");
-    let file = format!("golden/tables/{name}.md");
-    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &text);
-}
-
-/// A table in Markdown, from its head and its rows, the cells of each apart by `|`.
-pub fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
-    let rule = "---|".repeat(head.split('|').count());
-    let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
-    format!("| {head} |\n|{rule}\n{rows}")
-}
-
-/// A share in per cent; what is rounding alone is 0.
-pub fn percent(share: f64, decimals: usize) -> String {
-    if share.abs() < 1e-9 { "0".into() } else { format!("{:.decimals$} %", 100.0 * share) }
-}
-
 /// A whole number with a comma before its last three digits.
 fn thousands(number: usize) -> String {
     if number < 1000 {
@@ -100,8 +72,7 @@ fn thousands(number: usize) -> String {
 /// The quantities of a result, each declared once.
 #[test]
 fn quantities() {
-    let page = quantities_page();
-    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
+    assert_file("golden/quantities.md", &quantities_page());
 }
 
 /// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
@@ -109,13 +80,13 @@ fn quantities() {
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 #[test]
 fn prices() {
-    let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");
+    let alone = &claims::STRAND.prices;
     let fig1 = Case::new(Scene::open("fig1").expect("an embedded scene"));
     let on_fig1 = prices::on(&fig1, &|| ()).expect("fig1 has a solution");
     let repairs = prices::repairs(&fig1, &on_fig1, &|| ()).expect("fig1 has a solution");
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
-    assert_eq!(prices::price_tables::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
-    for price in &alone {
+    assert_eq!(prices::price_tables::of_weight(alone, Weight::Rounding), ["C4 and C5"]);
+    for price in alone {
         let is_free = [None, Some(FindingId::C7), Some(FindingId::C12), Some(FindingId::K4)]
             .contains(&price.finding);
         assert!(price.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
@@ -168,7 +139,12 @@ fn prices() {
                corrected algorithm the faults are reintroduced one at a time, each time the one that leaves \
                the least error; the last one is repaired first.** Printed by \
                `plane-contact audit fig1 --prices --repairs`.";
-    assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
+    assert_table(
+        "prices",
+        title,
+        "Printed by `plane-contact audit --prices`",
+        &format!("{alone}\n{way}\n\n{repairs}"),
+    );
 }
 
 #[test]
@@ -211,7 +187,7 @@ fn variants() {
         STRAND.iterations,
         fx.hypot(fy)
     );
-    assert_table("variants", &title, "solve strand --variant V", &table);
+    assert_table("variants", &title, "Printed by `plane-contact solve strand --variant V`", &table);
 }
 
 /// How many nodes are in contact at the end, and how the end was reached.
@@ -282,7 +258,7 @@ fn mesh_errors() {
         runs,
     );
     let title = "The estimate of the error of the mesh, in the energy norm, beside the error from a mesh 64 times finer.";
-    assert_table("mesh_errors", title, "", &table);
+    assert_table("mesh_errors", title, "Made by the test `mesh_errors`", &table);
 }
 
 #[test]
@@ -292,12 +268,17 @@ fn claims() {
     let each = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title =
         format!("What the paper claims, {}: {}.", counts(), each.collect::<Vec<_>>().join(", "));
-    assert_table("claims", &title, "audit --range", &verdicts().markdown());
+    assert_table(
+        "claims",
+        &title,
+        "Printed by `plane-contact audit --range`",
+        &verdicts().markdown(),
+    );
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
          figures on the scene strand, whose mesh is of Gmsh, differ a little.",
-        "audit --range",
+        "Printed by `plane-contact audit --range`",
         &over_the_range().markdown(),
     );
     // What the verdict on the paper's own example cites.
@@ -347,9 +328,7 @@ fn over_the_range() -> Table<Vec<(&'static JudgedClaim, Parameter)>> {
 /// the table is not made; where `REQUIRE_CCX` is set it must be.
 #[test]
 fn calculix() {
-    if Command::new("ccx").arg("-v").output().is_err() {
-        assert!(std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
-        eprintln!("ccx is not installed: golden/tables/calculix.md is not made");
+    if !has_ccx() {
         return;
     }
     let pair = Pair::new(&STRAND.model, None, Friction::STICK);
@@ -398,7 +377,7 @@ fn calculix() {
     assert_table(
         "calculix",
         &title,
-        "compare strand --with calculix --contact pair --friction stick",
+        "Printed by `plane-contact compare strand --with calculix --contact pair --friction stick`",
         &table,
     );
 }
@@ -425,7 +404,7 @@ fn scenes() {
     assert_table(
         "scenes",
         "What the scenes of `scene mesh` are made of.",
-        "",
+        "Made by the test `scenes`",
         &markdown(head, rows),
     );
 }
@@ -491,7 +470,7 @@ fn settings() {
          displacement. The error is against the equilibrium under friction, of half a scene \
          against the whole; the change against the scene's own value. Where the last digit of the \
          inputs decides who is in contact, the row is of double-doubles.",
-        "trade strand --only c_tll,iterations,symmetry",
+        "Printed by `plane-contact trade strand --only c_tll,iterations,symmetry`",
         &table,
     );
 }
@@ -558,7 +537,7 @@ fn limit() {
                  differences from mesh to mesh fall by one factor; where they do not, the own mesh is compared \
                  with the finest. Peak and half width are those of Hertz's parabola for p² through the \
                  pressures of nodes.";
-    assert_table("limit", title, "", &table);
+    assert_table("limit", title, "Made by the test `limit`", &table);
 }
 
 /// Where values on meshes of halved edges lead to; nothing where their differences change their sign or do not
@@ -626,19 +605,9 @@ fn quantities_of<T>(place: &str, quantities: &[Quantity<T>]) -> String {
             2 => "vector",
             _ => "tensor",
         };
-        let cells = [
-            &format!("`{}`", q.name),
-            &q.title.replace('|', "\\|"),
-            &q.symbols.join(", ").replace('|', "\\|"),
-            q.unit.name(),
-            shape,
-            &q.meaning.replace('|', "\\|"),
-        ];
-        format!("| {} |\n", cells.join(" | "))
+        let (name, symbols) = (format!("`{}`", q.name), q.symbols.join(", "));
+        page::row(&[&name, q.title, &symbols, q.unit.name(), shape, q.meaning])
     };
-    format!(
-        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
-         |---|---|---|---|---|---|\n{}",
-        quantities.iter().map(row).collect::<String>()
-    )
+    let head = "field | title | symbol | unit | shape | what it is";
+    format!("\n## {place}\n\n{}", markdown(head, quantities.iter().map(row)))
 }

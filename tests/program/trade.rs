@@ -1,12 +1,11 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
-use std::path::Path;
-
 use crate::claims::judged;
 use crate::common::annulus::annulus;
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::golden_file::assert_rows_by;
+use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
-use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, Tolerance, assert_near};
+use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, assert_near};
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::problem::element;
@@ -20,20 +19,16 @@ use plane_contact::studies::benchmark::Strand;
 use plane_contact::studies::trade::trial_tables as report;
 use plane_contact::studies::trade::{self, AXES, Order, Point, Rounding, Trade, pareto, solve_to};
 
-/// Lamé: order of convergence in the energy norm, absolute.
-const LAME_ENERGY_ORDER: Tolerance = Tolerance {
-    limit: 0.15,
-    reason: "1 where the solution is smooth; 0.89 was measured: the polygon's corners on the bore are \
-         re-entrant and take some of it",
-};
-
-/// Half a symmetric scene beside the whole, and a refined scene's area and load, relative to
-/// the largest.
-const HALF: Tolerance = Tolerance {
-    limit: 1e-9,
-    reason: "the strand's mesh is symmetric within 2e-11 mm of triangles of 0.2 mm; the same \
-         equations in another order add 1e-13",
-};
+testing::tolerances! {
+    /// Lamé: order of convergence in the energy norm, absolute.
+    LAME_ENERGY_ORDER = 0.15,
+        "1 where the solution is smooth; 0.89 was measured: the polygon's corners on the bore are re-entrant and take \
+         some of it";
+    /// Half a symmetric scene beside the whole, and a refined scene's area and load, relative to the largest.
+    HALF = 1e-9,
+        "the strand's mesh is symmetric within 2e-11 mm of triangles of 0.2 mm; the same equations in another order \
+         add 1e-13";
+}
 
 const HALF_SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/half");
 
@@ -214,7 +209,7 @@ fn half_of_a_symmetric_scene_is_the_whole() {
 /// The rows of `half/rows.txt`: what is left of each scene.
 #[test]
 fn what_is_symmetric_has_a_half() {
-    assert_rows(&Path::new(HALF_SCENES).join("rows.txt"), same_text, |row| {
+    assert_rows_by(format!("{HALF_SCENES}/rows.txt"), same_text, |row| {
         let Some(half) = half(&scene_of(HALF_SCENES, row).unwrap()) else { return "none".into() };
         assert!(half.scene.model.dropped.is_empty() && half.nodes.iter().all(|[a, b]| a == b));
         let nodes = half.nodes.iter().map(|[node, _]| format!(" {node}"));

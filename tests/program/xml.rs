@@ -1,18 +1,12 @@
 //! XML files read back: texts, and the arrays of a VTU file.
 
 use std::io::Read;
-use std::path::Path;
-use std::process::Command;
 
 use flate2::read::ZlibDecoder;
 use plane_contact::output::quantities::Array;
 use plane_contact::output::vtu::document;
 use plane_contact::xml::Element;
 use roxmltree::Document;
-use tempfile::TempDir;
-
-use crate::common::program::run;
-use crate::common::tools::has_python;
 
 #[test]
 fn text_reads_back() {
@@ -134,29 +128,4 @@ fn long_arrays_read_back() {
 fn missing_values_are_refused() {
     let points = [Array::new("displacement", "", 2, DISPLACEMENT[..6].to_vec())];
     document(&[], &POINTS, &TRIANGLES, &points, &[]);
-}
-
-/// Other readers find in `fields.vtu` what `result.json` has, of scenes whose names need quoting and of a mesh
-/// of several blocks.
-#[test]
-fn fields_are_read_by_other_programs() {
-    if !has_python("meshio", "REQUIRE_VTU") {
-        return;
-    }
-    let folder = TempDir::new().expect("a folder");
-    let write = |args: &[&str]| {
-        let output = run(folder.path(), args);
-        assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-    };
-    write(&["scene", "copy", "two-blocks", "--out", "a <--> \"b\" & c\u{e4}"]);
-    write(&["scene", "mesh", "hertz", "--size", "20", "--out", "many"]);
-    for scene in ["fig1", "strand", "a <--> \"b\" & c\u{e4}", "many"] {
-        write(&["solve", scene, "--no-pictures", "--fields", "--out", "out"]);
-        let output = Command::new("python3")
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/vtu/read.py"))
-            .current_dir(folder.path())
-            .output()
-            .expect("python");
-        assert!(output.status.success(), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
-    }
 }

@@ -10,13 +10,12 @@ use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
 use problem::scene::Scene;
 use testing::bodies::{Bodies, Writing, blocks, roof, writings};
-use testing::tolerances::{INVARIANCE, Tolerance, assert_near};
+use testing::tolerances::{INVARIANCE, assert_near};
 
-/// The distance of a block from the apex that holds it, over the block's size.
-const APEX: Tolerance = Tolerance {
-    limit: 1e-9,
-    reason: "a gap is closed to 5e-13 of the scene, and the apex may be twenty times the block's size",
-};
+testing::tolerances! {
+    /// The distance of a block from the apex that holds it, over the block's size.
+    APEX = 1e-9, "a gap is closed to 5e-13 of the scene, and the apex may be twenty times the block's size";
+}
 
 /// Solves bodies as they are written.
 fn solved(

@@ -4,17 +4,14 @@
 //! In `faced.txt` a coupling stands before a line of the target's chains, ` / ` between them, and of the contact surface,
 //! or its one node; `reversed` lists the target's edges from the last. INSTA_UPDATE=always writes what is faced anew.
 
-use std::path::Path;
-
 use engine::contact::{Pairing, Surfaces};
 use problem::model::Model;
 use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Axis;
 
 use testing::bodies::{Bodies, Writing};
-use testing::rows::assert_rows;
-
-use crate::same_text::same_text;
+use testing::golden_file::assert_rows_by;
+use testing::same_text::same_text;
 
 type Chain<'a> = &'a [[f64; 2]];
 
@@ -53,8 +50,7 @@ pub fn model(target: &[Chain], contact: Chain) -> Model {
 
 #[test]
 fn what_is_faced_by_hand() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/faced.txt");
-    assert_rows(&file, same_text, faced);
+    assert_rows_by("tests/faced.txt", same_text, faced);
 }
 
 /// Returns a line for each contact node of a row.

@@ -6,32 +6,21 @@ use engine::{self, Assessment, Request, Solution};
 use problem::element::Plane;
 use problem::modelling::{ContactModel, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use testing::tolerances::{BALANCE, Tolerance, assert_near};
+use testing::tolerances::{BALANCE, assert_near};
 
-/// The slip of a pulled strip beside that of a bar, in heights over the length of the slip for its
-/// end, in heights for its edge.
-const SHEAR_LAG: Tolerance =
-    Tolerance { limit: 1.2, reason: "a strip is no bar over one height, and slip ends at a node" };
-
-/// The zone of stick under partial slip, relative to Cattaneo's and Mindlin's.
-const CATTANEO: Tolerance = Tolerance {
-    limit: 0.035,
-    reason: "fitted on 15 to 25 nodes; 0.6, 1.4 and 3.3 % measured, 0.2 % with 70 nodes",
-};
-
-/// How far a sticking node moves on a foundation of a modulus a million times as large.
-const DISSIPATION: Tolerance =
-    Tolerance { limit: 1e-5, reason: "the foundation yields by its modulus over the strip's" };
-
-/// Displacements under a coefficient of 1000 beside those of nodes that never slide.
-const LARGE_FRICTION: Tolerance =
-    Tolerance { limit: 1e-5, reason: "what is left of the size of the steps" };
-
-/// Displacements in 16 steps of the load beside those in 32.
-const LOAD_STEP: Tolerance = Tolerance {
-    limit: 1e-5,
-    reason: "a node that slips and then sticks within a step; 3e-6 measured",
-};
+testing::tolerances! {
+    /// The slip of a pulled strip beside that of a bar, in heights over the length of the slip for its end, in heights
+    /// for its edge.
+    SHEAR_LAG = 1.2, "a strip is no bar over one height, and slip ends at a node";
+    /// The zone of stick under partial slip, relative to Cattaneo's and Mindlin's.
+    CATTANEO = 0.035, "fitted on 15 to 25 nodes; 0.6, 1.4 and 3.3 % measured, 0.2 % with 70 nodes";
+    /// How far a sticking node moves on a foundation of a modulus a million times as large.
+    DISSIPATION = 1e-5, "the foundation yields by its modulus over the strip's";
+    /// Displacements under a coefficient of 1000 beside those of nodes that never slide.
+    LARGE_FRICTION = 1e-5, "what is left of the size of the steps";
+    /// Displacements in 16 steps of the load beside those in 32.
+    LOAD_STEP = 1e-5, "a node that slips and then sticks within a step; 3e-6 measured";
+}
 
 fn rubbing(mu: f64) -> Contact {
     Contact {

@@ -17,18 +17,15 @@ use problem::modelling::{Coupling, Geometry};
 
 use crate::hard_scenes::{Draw, Hard, arc, arm, disc, ring, rough, thin};
 use testing::bodies::Writing;
-use testing::tolerances::{Tolerance, assert_near};
+use testing::tolerances::assert_near;
 
-/// Forces and gaps of an equilibrium in the shape that it reaches, relative to the largest force and to
-/// the size of the scene.
-const HARD: Tolerance = Tolerance {
-    limit: 1e-8,
-    reason: "the shape may change by 1e-8 of the displacements after contact was measured in it",
-};
-
-/// Displacements of a scene that is hard to solve in two numberings, over the largest.
-const RENUMBERED: Tolerance =
-    Tolerance { limit: 1e-7, reason: "thin and loosely held bodies amplify rounding by up to 1e8" };
+testing::tolerances! {
+    /// Forces and gaps of an equilibrium in the shape that it reaches, relative to the largest force and to the size of
+    /// the scene.
+    HARD = 1e-8, "the shape may change by 1e-8 of the displacements after contact was measured in it";
+    /// Displacements of a scene that is hard to solve in two numberings, over the largest.
+    RENUMBERED = 1e-7, "thin and loosely held bodies amplify rounding by up to 1e8";
+}
 
 /// The number of scenes of each kind. `PLANE_CONTACT_HARD` gives another.
 const SCENES: usize = 40;

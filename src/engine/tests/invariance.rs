@@ -13,14 +13,12 @@ use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use problem::scene::Scene;
 use testing::bodies::{Bodies, Writing};
 use testing::drawn::{KINDS, scenes};
-use testing::tolerances::{INVARIANCE, Tolerance, assert_near};
+use testing::tolerances::{INVARIANCE, assert_near};
 
-/// The same where a finite coefficient of friction and other rounding lead along another path,
-/// over the largest.
-const OTHER_PATH: Tolerance = Tolerance {
-    limit: 2e-2,
-    reason: "an exception, not a promise: 1.3e-2 was measured with load in two to four steps",
-};
+testing::tolerances! {
+    /// The same where a finite coefficient of friction and other rounding lead along another path, over the largest.
+    OTHER_PATH = 2e-2, "an exception, not a promise: 1.3e-2 was measured with load in two to four steps";
+}
 
 /// The number of scenes without friction, each in [`IMAGES`] of the writings.
 const SCENES: usize = 1000;

@@ -4,8 +4,6 @@ extern crate plane_contact_engine as engine;
 
 #[path = "../../../tests/common/letter.rs"]
 mod letter;
-#[path = "../../../tests/common/same_text.rs"]
-mod same_text;
 
 mod corners;
 mod decisions;

@@ -22,36 +22,19 @@ use testing::random::fixed;
 use testing::shipped::shipped_scenes;
 use testing::tolerances::Tolerance;
 
-/// f32 against exact numbers, displacements relative to the largest.
-const LADDER_SINGLE: Tolerance = Tolerance {
-    limit: 1e-4,
-    reason: "eps = 6e-8 times a condition number of 1e2 to 1e3 of fig1 and two-blocks",
-};
-
-/// f64 against exact numbers, displacements relative to the largest.
-const LADDER_DOUBLE: Tolerance = Tolerance {
-    limit: 1e-13,
-    reason: "eps = 1e-16 times a condition number of 1e2 to 1e3 of fig1 and two-blocks",
-};
-
-/// f64x2 against exact numbers, displacements relative to the largest.
-const LADDER_DOUBLE_DOUBLE: Tolerance = Tolerance {
-    limit: 1e-28,
-    reason: "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 \
-         and two-blocks",
-};
-
-/// What rounding is measured to do over what it does.
-const MEASURED_ROUNDING: Tolerance = Tolerance {
-    limit: 1e3,
-    reason: "an error may be small by chance, where the changed last digits all add up",
-};
-
-/// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
-const NORM_ESTIMATE: Tolerance = Tolerance {
-    limit: 1e-10,
-    reason: "estimate and norm are both rounded: 1e-16 times a condition number of 1e4",
-};
+testing::tolerances! {
+    /// f32 against exact numbers, displacements relative to the largest.
+    LADDER_SINGLE = 1e-4, "eps = 6e-8 times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// f64 against exact numbers, displacements relative to the largest.
+    LADDER_DOUBLE = 1e-13, "eps = 1e-16 times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// f64x2 against exact numbers, displacements relative to the largest.
+    LADDER_DOUBLE_DOUBLE = 1e-28,
+        "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// What rounding is measured to do over what it does.
+    MEASURED_ROUNDING = 1e3, "an error may be small by chance, where the changed last digits all add up";
+    /// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
+    NORM_ESTIMATE = 1e-10, "estimate and norm are both rounded: 1e-16 times a condition number of 1e4";
+}
 
 const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];
 
@@ -312,34 +295,4 @@ fn what_fails_as_printed_fails_in_exact_numbers() {
         }
     }
     assert!(failed > 0, "some scene is here to fail");
-}
-
-#[test]
-fn what_no_precision_has_is_refused() {
-    let refused = |scene: &str, variant, arithmetic, words: &str| {
-        let error = solve(&Scene::open(scene).unwrap(), variant, arithmetic).unwrap_err();
-        assert_eq!(error.exit_status().number(), 2);
-        assert!(error.to_string().contains(words), "{error}");
-    };
-    let of = arithmetic;
-    let tied = Variant::Tied;
-    refused(
-        "strand",
-        tied,
-        of(ScalarName::Exact, None),
-        "free equations: an exact run may have 1000",
-    );
-    let by_lu = Some(Solver::SparseLu);
-    for scalar in [ScalarName::Exact, ScalarName::F32] {
-        let words = format!("sparse-lu does not solve in {scalar}");
-        refused("fig1", tied, of(scalar, by_lu), &words);
-    }
-    refused(
-        "fig1",
-        Variant::Unilateral,
-        of(ScalarName::F64x2, None),
-        "unilateral does not run in f64x2",
-    );
-    let unilateral = Variant::Unilateral;
-    refused("fig1", unilateral, of(ScalarName::F64, by_lu), "does not solve by sparse-lu");
 }

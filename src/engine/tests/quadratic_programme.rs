@@ -25,15 +25,14 @@ use problem::model::{Dof, Model};
 use problem::modelling::{Coupling, Geometry};
 use testing::bodies::Writing;
 use testing::drawn::{Drawn, Kind, Support, scenes};
-use testing::tolerances::{Tolerance, assert_near};
+use testing::tolerances::assert_near;
 
-/// Displacements and contact forces of random scenes beside a quadratic programme, over the
-/// largest.
-const PROGRAMME: Tolerance = Tolerance {
-    limit: 1e-9,
-    reason: "the issue's own number; measured 2e-11 and 6e-11 on scenes whose moduli differ by up to \
-         100, where clamped plates have a condition number of 1e6",
-};
+testing::tolerances! {
+    /// Displacements and contact forces of random scenes beside a quadratic programme, over the largest.
+    PROGRAMME = 1e-9,
+        "the issue's own number; measured 2e-11 and 6e-11 on scenes whose moduli differ by up to 100, where clamped \
+         plates have a condition number of 1e6";
+}
 
 /// The number of scenes, each under both couplings.
 const SCENES: usize = 1000;

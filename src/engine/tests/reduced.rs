@@ -13,13 +13,12 @@ use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Axis;
 
 use testing::bodies::{Bodies, Writing, grid};
-use testing::tolerances::{Tolerance, assert_near};
+use testing::tolerances::assert_near;
 
-/// Displacements by the stiffness reduced to the surfaces beside those by the whole, over the largest.
-const REDUCED: Tolerance = Tolerance {
-    limit: 1e-10,
-    reason: "both leave a few epsilons of their residuals, times a condition number of some 1e4",
-};
+testing::tolerances! {
+    /// Displacements by the stiffness reduced to the surfaces beside those by the whole, over the largest.
+    REDUCED = 1e-10, "both leave a few epsilons of their residuals, times a condition number of some 1e4";
+}
 
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];
 

@@ -1,8 +1,6 @@
 //! In which contact state `unilateral` ends, or that it fails, recorded: of bodies that little holds, and
 //! under strong friction and several stages.
 
-use std::path::Path;
-
 use engine::{Request, solve};
 use fastrand::Rng;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
@@ -35,7 +33,7 @@ fn model(rng: &mut Rng, friction: &[f64]) -> ContactModel {
 
 /// Runs the seeds that begin the lines of `searched/<name>.txt`, before the words for the model and the outcome.
 fn record(name: &str, one: impl Fn(&mut Rng) -> (SceneBuilder, ContactModel)) {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/searched/{name}.txt"));
+    let file = format!("tests/searched/{name}.txt");
     let line = |line: &str| {
         let seed = line.split(' ').next().expect("a seed");
         let (scene, model) = one(&mut Rng::with_seed(seed.parse().expect("a number")));

@@ -14,12 +14,12 @@ use problem::model::{EdgeId, Model};
 use problem::modelling::StatusRule::{Intersection, Signs};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use testing::tolerances::{Tolerance, assert_near};
+use testing::tolerances::assert_near;
 
-/// A closest point, its distance and its normal against the closed form, relative to
-/// coordinates of order 1.
-const CLOSEST_POINT: Tolerance =
-    Tolerance { limit: 1e-14, reason: "a dozen roundings of 1e-16, of turned coordinates too" };
+testing::tolerances! {
+    /// A closest point, its distance and its normal against the closed form, relative to coordinates of order 1.
+    CLOSEST_POINT = 1e-14, "a dozen roundings of 1e-16, of turned coordinates too";
+}
 
 const C: f64 = 0.001;
 

@@ -1,7 +1,5 @@
 //! From text to syntax tree and back.
 
-use std::path::Path;
-
 use mathcad::edit::EditError;
 use mathcad::{Edit, Listing};
 use testing::golden_file::assert_rows;
@@ -23,8 +21,7 @@ fn listings_are_read_or_refused() {
             }
         }
     };
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/notation.txt");
-    assert_rows(&file, |golden, is| golden == is, answer);
+    assert_rows("tests/notation.txt", answer);
 }
 
 /// An error is shown with its line, and a mark at its column.

@@ -8,6 +8,7 @@ use mathcad::worksheet::{Agreement, ExecutedRegion, execute};
 use mathcad::xmcd::document::{self, Content};
 use mathcad::xmcd::write;
 use mathcad::{Limits, Listing, Value};
+use testing::golden_file::assert_text;
 
 /// A line for each region: its id and text, its value, how it agrees with what Mathcad saved, and the regions whose saved
 /// values went into it.
@@ -37,11 +38,7 @@ fn worksheets() {
         let sheet = document::read(&text, &name).expect("a worksheet");
         writeln!(all, "{name}\n{}", rows(&sheet)).expect("room");
     }
-    let mut settings = insta::Settings::new();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/tests"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!("worksheets", all));
+    assert_text("tests/worksheets", &all, |golden, is| golden == is);
 }
 
 fn worksheet(regions: &str) -> document::Worksheet {

@@ -14,6 +14,7 @@ use super::{outcome, program, xmcd};
 
 use mathcad::failure::Fallible;
 use mathcad::{Ended, Settings};
+use testing::golden_file::is_written;
 
 struct Rule {
     settings: Settings,
@@ -66,7 +67,7 @@ fn hold(file: &str) {
             wrong.push(format!("{lines} ⇒ {found}\nin place of {expected}"));
         }
     }
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if is_written() {
         std::fs::write(path, written).expect("rules");
     } else {
         assert!(wrong.is_empty(), "{}", wrong.join("\n"));

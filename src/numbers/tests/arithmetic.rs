@@ -8,12 +8,12 @@ use proptest::prelude::*;
 use testing::random::fixed;
 use testing::tolerances::Tolerance;
 
-/// A double-double operation against exact arithmetic, relative to its result.
-const DOUBLE_DOUBLE: Tolerance = Tolerance {
-    limit: 1.3e-31,
-    reason: "the proven errors, in units of u² = 2^-106 = 1.2e-32: sum 3, product 4, quotient 9.8, \
-         root of a square 3.125 + 2",
-};
+testing::tolerances! {
+    /// A double-double operation against exact arithmetic, relative to its result.
+    DOUBLE_DOUBLE = 1.3e-31,
+        "the proven errors, in units of u² = 2^-106 = 1.2e-32: sum 3, product 4, quotient 9.8, root of a square 3.125 \
+         + 2";
+}
 
 /// A float of any sign whose size is within 2^±`range`.
 fn float(range: i32) -> impl Strategy<Value = f64> {

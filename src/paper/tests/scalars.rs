@@ -6,17 +6,14 @@ use paper::door;
 use paper::mirror::{Cause, Failure, Km, Reading, c_cnt};
 use problem::model::Model;
 use problem::scene::Scene;
-use testing::tolerances::{Tolerance, assert_near};
+use testing::tolerances::assert_near;
 
-/// f32 beside f64 for yt, relative to the coordinates, which it subtracts.
-const SINGLE_GAP: Tolerance =
-    Tolerance { limit: 1e-6, reason: "a difference of coordinates rounded at 6e-8" };
-
-/// f32 beside f64, relative to the largest entry of the table or matrix.
-const SINGLE: Tolerance = Tolerance {
-    limit: 2e-6,
-    reason: "inputs and a handful of operations rounded at 6e-8 each, sums of six elements",
-};
+testing::tolerances! {
+    /// f32 beside f64 for yt, relative to the coordinates, which it subtracts.
+    SINGLE_GAP = 1e-6, "a difference of coordinates rounded at 6e-8";
+    /// f32 beside f64, relative to the largest entry of the table or matrix.
+    SINGLE = 2e-6, "inputs and a handful of operations rounded at 6e-8 each, sums of six elements";
+}
 
 #[test]
 fn f32_follows_f64() {

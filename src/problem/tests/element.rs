@@ -9,15 +9,14 @@ use problem::element::{
 };
 use proptest::prelude::*;
 use testing::random::fixed;
-use testing::tolerances::{ELEMENT, Tolerance, assert_near};
+use testing::tolerances::{ELEMENT, assert_near};
 
-/// Strain of a rigid motion, relative to its largest term |B| |u|.
-const RIGID: Tolerance =
-    Tolerance { limit: 1e-13, reason: "a sum of six rounded products that cancel" };
-
-/// A patch of triangles under constant strain, relative to the strain.
-const PATCH: Tolerance =
-    Tolerance { limit: 1e-13, reason: "a dozen roundings of 1e-16 each; the issue's own number" };
+testing::tolerances! {
+    /// Strain of a rigid motion, relative to its largest term |B| |u|.
+    RIGID = 1e-13, "a sum of six rounded products that cancel";
+    /// A patch of triangles under constant strain, relative to the strain.
+    PATCH = 1e-13, "a dozen roundings of 1e-16 each; the issue's own number";
+}
 
 /// Triangles in a box of size 10, counter-clockwise, not thinner than 1 in 100.
 fn triangle() -> impl Strategy<Value = Corners<f64>> {

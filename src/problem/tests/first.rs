@@ -1,10 +1,8 @@
 //! The first scene of a mesh, and what it leaves to its author; units that do not fit each other.
 
-use std::path::Path;
-
 use problem::element::Plane;
 use problem::scene::{Axis, Mesh, MeshBuilder, PhysicalName, Scene, SceneBuilder, first, gmsh};
-use testing::rows::assert_rows;
+use testing::golden_file::assert_rows;
 
 /// A block under a narrower punch, a hundredth above it, with all their sides as groups.
 fn punch() -> Mesh {
@@ -78,7 +76,7 @@ fn first_scenes() {
         let said = notes.chain([contact.trim(), &built]).filter(|line| !line.is_empty());
         said.collect::<Vec<_>>().join("\n")
     };
-    assert_rows(Path::new("tests/first.txt"), |golden, is| golden == is, answer);
+    assert_rows("tests/first.txt", answer);
 }
 
 #[test]
@@ -168,21 +166,17 @@ fn a_mesh_without_tags_is_refused_with_the_lines_of_meshio() {
 /// A row of `units.txt` has the units of length, stress and force, `-` for none.
 #[test]
 fn units_that_do_not_fit_each_other_are_named() {
-    assert_rows(
-        Path::new("tests/units.txt"),
-        |golden, is| golden == is,
-        |row| {
-            let units =
-                row.trim_start_matches("units: ").split(", ").map(|unit| unit.trim_matches('-'));
-            let [length, stress, force] = units.collect::<Vec<_>>()[..] else { panic!("{row}") };
-            let scene = SceneBuilder::new("punch", punch(), Plane::Strain)
-                .units(length, stress, force)
-                .material("block", 1.0, 0.3)
-                .material("punch", 1.0, 0.3)
-                .restrain("block_bottom", &[Axis::X, Axis::Y])
-                .restrain("punch_bottom", &[Axis::X, Axis::Y])
-                .build();
-            scene.expect("it is sound").adapted().first().cloned().unwrap_or("they fit".into())
-        },
-    );
+    assert_rows("tests/units.txt", |row| {
+        let units =
+            row.trim_start_matches("units: ").split(", ").map(|unit| unit.trim_matches('-'));
+        let [length, stress, force] = units.collect::<Vec<_>>()[..] else { panic!("{row}") };
+        let scene = SceneBuilder::new("punch", punch(), Plane::Strain)
+            .units(length, stress, force)
+            .material("block", 1.0, 0.3)
+            .material("punch", 1.0, 0.3)
+            .restrain("block_bottom", &[Axis::X, Axis::Y])
+            .restrain("punch_bottom", &[Axis::X, Axis::Y])
+            .build();
+        scene.expect("it is sound").adapted().first().cloned().unwrap_or("they fit".into())
+    });
 }

@@ -2,14 +2,13 @@
 //! damage.
 
 use std::fs;
-use std::path::Path;
 
 use problem::scene::gmsh::{read, write};
 use problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
 use proptest::prelude::*;
 use proptest::sample::Index;
+use testing::golden_file::assert_rows;
 use testing::random::fixed;
-use testing::rows::assert_rows;
 
 /// `tests/gmsh/blocks.geo` as Gmsh saves it.
 const BLOCKS: [&str; 4] =
@@ -202,36 +201,32 @@ fn the_other_byte_order_is_refused_by_name() {
 /// Each row of the file: a version and what is changed.
 #[test]
 fn changed_files_are_read_or_refused() {
-    assert_rows(
-        Path::new("tests/gmsh/changes.txt"),
-        |golden, is| golden == is,
-        |row| {
-            let mut parts = row.split(" | ");
-            let (text, whole) = match parts.next() {
-                Some("2.2") => (SMALL_2, small()),
-                _ => (SMALL_4, small_4()),
-            };
-            let changed = parts.fold(text.to_owned(), |text, change| {
-                let (from, to) = change.split_once(" → ").expect("a change");
-                let [from, to] = [from, to].map(|text| text.replace('⏎', "\n"));
-                assert!(text.contains(&from), "{row}");
-                text.replacen(&from, &to, 1)
-            });
-            match read(changed.as_bytes()) {
-                Err(why) => why.to_string(),
-                Ok(mesh) if mesh == whole => "the same mesh".into(),
-                Ok(mesh) => {
-                    let nodes: Vec<_> = mesh.nodes.iter().map(|node| node.number).collect();
-                    let names = mesh.names.iter().map(|name| (name.dim, name.tag, &name.name));
-                    let names = names.collect::<Vec<_>>();
-                    let elements =
-                        mesh.elements.iter().map(|e| (e.kind, &e.physical[..], &e.nodes[..]));
-                    let elements = elements.collect::<Vec<_>>();
-                    format!("nodes {nodes:?}, elements {elements:?}, names {names:?}")
-                }
+    assert_rows("tests/gmsh/changes.txt", |row| {
+        let mut parts = row.split(" | ");
+        let (text, whole) = match parts.next() {
+            Some("2.2") => (SMALL_2, small()),
+            _ => (SMALL_4, small_4()),
+        };
+        let changed = parts.fold(text.to_owned(), |text, change| {
+            let (from, to) = change.split_once(" → ").expect("a change");
+            let [from, to] = [from, to].map(|text| text.replace('⏎', "\n"));
+            assert!(text.contains(&from), "{row}");
+            text.replacen(&from, &to, 1)
+        });
+        match read(changed.as_bytes()) {
+            Err(why) => why.to_string(),
+            Ok(mesh) if mesh == whole => "the same mesh".into(),
+            Ok(mesh) => {
+                let nodes: Vec<_> = mesh.nodes.iter().map(|node| node.number).collect();
+                let names = mesh.names.iter().map(|name| (name.dim, name.tag, &name.name));
+                let names = names.collect::<Vec<_>>();
+                let elements =
+                    mesh.elements.iter().map(|e| (e.kind, &e.physical[..], &e.nodes[..]));
+                let elements = elements.collect::<Vec<_>>();
+                format!("nodes {nodes:?}, elements {elements:?}, names {names:?}")
             }
-        },
-    );
+        }
+    });
 }
 
 #[test]

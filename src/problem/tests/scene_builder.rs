@@ -7,6 +7,7 @@ use problem::scene::{
     Axis, Contact, Element, Mesh, MeshBuilder, SceneBuilder, SceneFile, file, gmsh,
 };
 use serde_json::json;
+use testing::golden_file::assert_file;
 
 /// Two blocks on each other, with node 1 apart from both.
 fn blocks() -> SceneBuilder {
@@ -65,6 +66,16 @@ fn what_has_its_default_is_not_written() {
     let text = "{\n  \"mesh\": \"m.msh\",\n  \"plane\": \"strain\",\n  \"materials\": {},\n  \
                 \"loads\": [{\"on\":\"top\",\"pressure\":1.0}]\n}\n";
     assert_eq!(file::write(&bare.description, "m.msh"), text);
+    // The defaults are 16 load steps and 20 iterations.
+    let written = |load_steps: usize, iterations: usize| {
+        let contact = Contact { load_steps, ..Contact::new("top", "bottom", 0.5) };
+        let scene = blocks().iterations(iterations).contact(contact);
+        file::write(&scene.description, "m.msh")
+    };
+    assert_file("tests/blocks.json", &written(3, 7));
+    for field in ["load_steps", "iterations", "coupling", "friction", "geometry", "status"] {
+        assert!(!written(16, 20).contains(field), "{field}: {}", written(16, 20));
+    }
 }
 
 /// As a file does, code that names no variant asks for contact as it is.

@@ -1,10 +1,9 @@
 //! Restraints along normals, tangents and given directions, by place, and with displacements: the rows of
 //! `supports/rows.txt`, each with the directions that its restraints hold, or why it is refused.
 
-use std::path::Path;
-
 use problem::scene::{Axis, Restraint, Scene, SceneBuilder};
-use testing::rows::{assert_rows, scene_of};
+use testing::golden_file::assert_rows;
+use testing::rows::scene_of;
 
 const FOLDER: &str = "tests/supports";
 
@@ -28,7 +27,7 @@ fn held(scene: &Scene) -> String {
 fn what_restraints_hold() {
     let answer =
         |row: &str| scene_of(FOLDER, row).map_or_else(|why| why.to_string(), |scene| held(&scene));
-    assert_rows(&Path::new(FOLDER).join("rows.txt"), |golden, is| golden == is, answer);
+    assert_rows(format!("{FOLDER}/rows.txt"), answer);
 }
 
 /// JSON has no such number.

@@ -4,8 +4,6 @@ pub mod annulus;
 pub mod bodies;
 pub mod drawn;
 pub mod embedded;
-pub mod golden;
-pub mod golden_floats;
 pub mod json;
 pub mod rows;
 pub mod shipped;

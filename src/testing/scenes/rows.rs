@@ -6,8 +6,6 @@ use base::error::InputError;
 use problem::scene::Scene;
 use serde_json::{Value, json};
 
-pub use crate::golden_file::assert_rows;
-
 /// Returns the scene `FOLDER/NAME.json` of a row `NAME CHANGES`. A change is `key=value` of its contact or `/place=value` at
 /// a JSON pointer, of which `-` is behind the last, `null` for none; `shift=x,y` moves all nodes, `turn=degrees` turns them with all forces,
 /// and with restraints along an axis where the angle is right.

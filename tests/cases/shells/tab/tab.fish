@@ -1,0 +1,1 @@
+source ./script; complete -C $argv[1]
