@@ -57,7 +57,7 @@ impl<T: Scalar> Constraint<T> {
 
     /// Returns the constraint's equations: a direction d, the shift along it, and the constraint,
     /// for d·u_c − Σ w d·u_t = shift.
-    fn equations(&self) -> Vec<([T; 2], T, &Self)> {
+    pub(super) fn equations(&self) -> Vec<([T; 2], T, &Self)> {
         let (one, zero) = (T::one(), T::zero());
         match self.motion {
             Motion::Along(normal, shift) => vec![(normal, shift, self)],

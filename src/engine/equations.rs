@@ -7,11 +7,10 @@ use nalgebra::DVector;
 use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
-use super::reactions::{passed, reactions, support, supports};
+use super::reactions::{reactions, support, supports};
 use super::request::Request;
-use super::sparse::takes_sparse;
 use super::stiffness::Stiffness;
-use crate::linear::{Precision, Singular, Solved};
+use crate::linear::{Precision, Singular, Solved, Solver};
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
 use numbers::square::SparseSquare;
@@ -66,6 +65,22 @@ pub(super) struct Increment<T> {
     pub passed: DVector<T>,
 }
 
+impl<T: Scalar> Increment<T> {
+    /// Returns that of no load.
+    pub fn none(dofs: usize) -> Self {
+        let zeros = DVector::from_element(dofs, T::zero());
+        Increment { u: zeros.clone(), residual: 0.0, support: [T::zero(); 2], passed: zeros }
+    }
+
+    /// Adds the next one, whose residual is that of the sum.
+    pub fn add(&mut self, next: &Self) {
+        self.u += &next.u;
+        self.residual = next.residual;
+        self.support = [0, 1].map(|d| self.support[d] + next.support[d]);
+        self.passed += &next.passed;
+    }
+}
+
 impl<'a, T: Precision> Equations<'a, T> {
     /// Prepares the equations of `request`, in numbers that `number` makes of those of the scene.
     ///
@@ -84,15 +99,15 @@ impl<'a, T: Precision> Equations<'a, T> {
         };
         let (load, restrained) = (model.load_in(number), restrained(model, request));
         let f = restrained.free_part(&load.map(|f| f / share));
-        let assembly = if request.variant == Variant::Printed {
-            Assembly::Printed
-        } else if takes_sparse(request.solver()) {
-            Assembly::Sparse
-        } else {
-            Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
-                Some(edited) => edited?,
-                None => door::free_stiffness(sheet, &request.reading)?,
-            })
+        let assembly = match (request.variant, request.solver()) {
+            (Variant::Printed, _) => Assembly::Printed,
+            (_, Solver::SparseCholesky) => Assembly::Sparse,
+            (_, Solver::DenseLu | Solver::SparseLu) => {
+                Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
+                    Some(edited) => edited?,
+                    None => door::free_stiffness(sheet, &request.reading)?,
+                })
+            }
         };
         let stiffness = Stiffness::new(model, number);
         Ok(Equations {
@@ -183,8 +198,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
-        let support = support(&self.restrained, constraints, &force, &load);
-        let passed = passed(&self.restrained, constraints, &force);
+        let (support, passed) = support(&self.restrained, constraints, &force, &load);
         Increment { residual, support, passed, u }
     }
 

@@ -185,7 +185,7 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
 /// Returns the sum of the normal forces of the contact nodes, force; None where they do not press, or not in
 /// one unbroken stretch.
 fn normal_load(solution: &Solution) -> Option<f64> {
-    let all: f64 = solution.in_contact().filter_map(|c| c.force).sum();
+    let all = solution.pressed();
     let of = |stretch: &Stretch| {
         let own = solution.in_contact().filter(|c| stretch.nodes.contains(&c.node));
         own.filter_map(|c| c.force).sum::<f64>()

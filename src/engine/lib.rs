@@ -22,7 +22,6 @@ pub mod reduction;
 mod request;
 mod solution;
 mod solve;
-mod sparse;
 mod stiffness;
 mod stretches;
 mod unilateral;
@@ -40,11 +39,9 @@ pub use reactions::share_of_load;
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
-    Path, Published, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load,
-    max_displacement,
+    Path, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
-pub use sparse::is_dense;
 pub use stiffness::Stiffness;
 pub use stretches::{Resultant, Stretch, resultant, resultant_of_field, stretches};
 pub use unilateral::{Implied, implied};

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Request;
-use crate::linear::{Arithmetic, Inputs, ScalarName, Solver};
+use crate::linear::{Inputs, ScalarName, Solver};
 use base::error::InputError;
 use paper::mirror::Reading;
-use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
+use problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
 use problem::scene::Scene;
 
 /// The options of a run, each absent where the scene or the program decides.
@@ -75,25 +75,24 @@ impl Options {
     /// Returns the options of a request: its variant, and all else that differs from what its scene
     /// and the program do by themselves.
     pub fn from_request(request: &Request) -> Self {
-        let own = Request::new(&request.scene);
-        let (contact, arithmetic, plain) =
-            (request.contact, request.arithmetic, Arithmetic::default());
         fn other<T: PartialEq>(value: T, own: T) -> Option<T> {
             (value != own).then_some(value)
         }
+        let own = Request::new(&request.scene).variant(request.variant);
+        let (contact, arithmetic) = (request.contact, request.arithmetic);
         Options {
             variant: Some(request.variant),
             iterations: other(request.iterations, own.iterations),
             c_tll: request.tolerance,
             reading: request.reading,
-            coupling: other(contact.coupling, request.scene.coupling(request.variant)),
+            coupling: other(contact.coupling, own.contact.coupling),
             friction: other(contact.friction, own.contact.friction),
             geometry: other(contact.geometry, own.contact.geometry),
             load_steps: other(contact.load_steps, own.contact.load_steps),
             status: other(contact.status, own.contact.status),
-            scalar: other(arithmetic.scalar, plain.scalar),
+            scalar: other(arithmetic.scalar, own.arithmetic.scalar),
             solver: arithmetic.solver,
-            inputs: other(arithmetic.inputs, plain.inputs),
+            inputs: other(arithmetic.inputs, own.arithmetic.inputs),
         }
     }
 
@@ -102,26 +101,24 @@ impl Options {
     /// # Errors
     /// Neither says anything of friction, which is part of what `unilateral` solves.
     pub fn request(&self, scene: &Scene) -> Result<Request, InputError> {
-        let own = Request::new(scene);
-        let own = self.variant.map_or(own.clone(), |variant| own.variant(variant));
-        if own.variant == Variant::Unilateral && self.friction.is_none() {
+        fn set<T: Copy>(own: &mut T, asked: Option<T>) {
+            *own = asked.unwrap_or(*own);
+        }
+        let mut request = Request::new(scene).variant(self.variant.unwrap_or(scene.variant));
+        if request.variant == Variant::Unilateral && self.friction.is_none() {
             scene.check_friction()?;
         }
-        let contact = ContactModel {
-            coupling: self.coupling.unwrap_or(own.contact.coupling),
-            friction: self.friction.unwrap_or(own.contact.friction),
-            geometry: self.geometry.unwrap_or(own.contact.geometry),
-            load_steps: self.load_steps.unwrap_or(own.contact.load_steps),
-            status: self.status.unwrap_or(own.contact.status),
-        };
-        let arithmetic = Arithmetic {
-            scalar: self.scalar.unwrap_or_default(),
-            solver: self.solver,
-            inputs: self.inputs.unwrap_or_default(),
-        };
-        let iterations = self.iterations.unwrap_or(own.iterations);
-        let (tolerance, reading) = (self.c_tll, self.reading);
-        Ok(Request { iterations, tolerance, reading, contact, arithmetic, ..own })
+        let Request { contact, arithmetic, .. } = &mut request;
+        set(&mut contact.coupling, self.coupling);
+        set(&mut contact.friction, self.friction);
+        set(&mut contact.geometry, self.geometry);
+        set(&mut contact.load_steps, self.load_steps);
+        set(&mut contact.status, self.status);
+        set(&mut arithmetic.scalar, self.scalar);
+        set(&mut arithmetic.inputs, self.inputs);
+        arithmetic.solver = self.solver;
+        set(&mut request.iterations, self.iterations);
+        Ok(Request { tolerance: self.c_tll, reading: self.reading, ..request })
     }
 
     /// Returns a name for a run with these options: its variant, then every other option.

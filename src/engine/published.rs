@@ -10,14 +10,13 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, NodeEnd, Surfaces, reactions, status};
+use super::contact::{ContactNode, NodeEnd, Status, Surfaces, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
 use super::reactions::transmitted_force;
 use super::request::Request;
-use super::solution::{Cycle, Detail, FoundPairs, Published, Solution, Step, max_displacement};
-use super::sparse::is_dense;
+use super::solution::{Cycle, Detail, FoundPairs, Solution, Step, max_displacement};
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
 use base::limits;
@@ -53,9 +52,7 @@ pub(super) fn published<T: Precision>(
     let mut run = Run {
         equations: Equations::new(request, &model, &sheet, interpreter, &number)?,
         surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
-        u: DVector::from_element(model.dofs(), T::zero()),
-        support: [T::zero(), T::zero()],
-        passed: DVector::from_element(model.dofs(), T::zero()),
+        reached: Increment::none(model.dofs()),
         visited: Vec::new(),
     };
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
@@ -64,17 +61,19 @@ pub(super) fn published<T: Precision>(
         watch(&step);
         steps.push(step);
     }
-    let in_contact = steps.last().expect("a request has an iteration").statuses();
-    let reaction = run.equations.reaction(&run.u).map(T::to_f64);
+    let last = steps.last().expect("a request has an iteration");
+    let reaction = run.equations.reaction(&run.reached.u).map(T::to_f64);
     Ok(Solution {
-        contact: run.contact(&in_contact, &reaction)?,
-        reactions: run.equations.reactions(&reaction, &run.passed),
-        elements: run.equations.stiffness.states(&run.u),
+        contact: run.contact(last, &reaction)?,
+        reactions: run.equations.reactions(&reaction, &run.reached.passed),
+        elements: run.equations.stiffness.states(&run.reached.u),
         factored: run.visited.len(),
-        digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
+        digits: T::zero()
+            .digits()
+            .and_then(|_| run.reached.u.iter().map(|u| u.to_rational()).collect()),
         equilibrium: None,
         overlap: None,
-        u: run.u.map(T::to_f64),
+        u: run.reached.u.map(T::to_f64),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
@@ -131,7 +130,7 @@ fn check_load<T: Scalar>(
 /// Checks that dense matrices are small, iterations are few, and exact numbers end within a bearable time.
 fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
     // An edited `Km` is interpreted into a dense matrix, of which a sparse one is made.
-    if is_dense(request.variant, request.arithmetic) || request.is_edited(Which::Km) {
+    if request.is_dense() || request.is_edited(Which::Km) {
         limits::DENSE.check(model.dofs(), "the mesh")?;
     }
     limits::check_steps(request.iterations, model.nodes.len(), "iterations")?;
@@ -147,12 +146,8 @@ struct Run<'a, T> {
     equations: Equations<'a, T>,
     /// The surfaces that mortar needs; None under `nts`.
     surfaces: Option<Surfaces>,
-    /// The total displacements by degree of freedom, length.
-    u: DVector<T>,
-    /// The sum of what holds the body to which contact passes its force so far, force.
-    support: [T; 2],
-    /// What contact adds to the forces on restraints so far, by degree of freedom, force.
-    passed: DVector<T>,
+    /// The sum of the increments so far, or the last one where each has the whole load.
+    reached: Increment<T>,
     /// The contact states visited, each with its solution and the last iteration that visited it.
     /// The load of an iteration is always the same, so a state that returns has the same matrix and
     /// the same solution, and its matrix is not factored again.
@@ -174,8 +169,8 @@ struct FoundState<T> {
     node_n: Table<T>,
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
-    /// The position of each node in contact on its target edge, to measure eq. (1).
-    places: Vec<NodeToSegment<T>>,
+    /// Eq. (1) as it is measured: on the target edge of each node in contact.
+    measured: Vec<Constraint<T>>,
 }
 
 impl<T: Precision> Run<'_, T> {
@@ -207,12 +202,12 @@ impl<T: Precision> Run<'_, T> {
     /// Finds the contact state in the current shape.
     fn search(&self) -> Result<FoundState<T>, Error> {
         let Equations { request, model, sheet, interpreter, .. } = self.equations;
-        let node_n = door::displaced_nodes(sheet, &self.u);
+        let node_n = door::displaced_nodes(sheet, &self.reached.u);
         let reading = &request.reading;
         if !model.has_contact() {
             // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(sheet.R());
-            return Ok(FoundState { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
+            return Ok(FoundState { node_n, pairs, constraints: Vec::new(), measured: Vec::new() });
         }
         let edited = interpreter.and_then(|edited| edited.c_cnt(&node_n));
         let pairs = if let Some(pairs) = edited {
@@ -223,16 +218,15 @@ impl<T: Precision> Run<'_, T> {
             let found = status::statuses(request.contact.status, model, sheet, reading, &node_n)?;
             door::pairs(model, sheet, reading, &node_n, &found)?
         };
-        let linked = door::linked(sheet, &pairs);
-        let places = if request.is_edited(Which::CCnt) {
-            // Its weights are its own, wherever it takes them from.
-            linked.clone()
-        } else {
-            door::on_edges(sheet, &pairs, reading, &node_n)?
-        };
-        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
+        let mut constraints = bound(door::linked(sheet, &pairs));
         self.bind_by_mortar(&mut constraints, &node_n);
-        Ok(FoundState { node_n, pairs, constraints, places })
+        // The weights of mortar and of an edited c_cnt are their own.
+        let measured = if self.surfaces.is_some() || request.is_edited(Which::CCnt) {
+            constraints.clone()
+        } else {
+            bound(door::on_edges(sheet, &pairs, reading, &node_n)?)
+        };
+        Ok(FoundState { node_n, pairs, constraints, measured })
     }
 
     /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
@@ -251,15 +245,8 @@ impl<T: Precision> Run<'_, T> {
     /// Advances from one shape to the next.
     fn advance(&mut self, solved: &Increment<T>) {
         match self.equations.request.schedule() {
-            Schedule::Total => {
-                (self.u, self.support) = (solved.u.clone(), solved.support);
-                self.passed.clone_from(&solved.passed);
-            }
-            Schedule::Stepped => {
-                self.u += &solved.u;
-                self.support = [0, 1].map(|d| self.support[d] + solved.support[d]);
-                self.passed += &solved.passed;
-            }
+            Schedule::Total => self.reached = solved.clone(),
+            Schedule::Stepped => self.reached.add(solved),
         }
     }
 
@@ -270,51 +257,56 @@ impl<T: Precision> Run<'_, T> {
         cycle: Option<Cycle>,
         solved: &Increment<T>,
     ) -> Step {
-        let FoundState { node_n, pairs, constraints, places } = found;
+        let FoundState { node_n, pairs, constraints, measured } = found;
         let bound: &[Constraint<T>] = match self.equations.request.variant {
             Variant::Printed => &[],
             Variant::Tied | Variant::Stepped | Variant::Unilateral => constraints,
         };
-        let residual = |u: &DVector<T>| match &self.surfaces {
-            Some(_) => eq1_residual(constraints.iter().map(|c| (c.node, &c.masters[..])), u),
-            None => eq1_residual(places.iter().map(|p| (p.node, &p.masters[..])), u),
-        };
+        let status = |dy: &usize| if *dy == 1 { Status::Stick } else { Status::Open };
         Step {
             k,
             shape: Arc::new(numbers(&door::shape(node_n))),
+            statuses: pairs.dy.iter().map(status).collect(),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
-            max_displacement: max_displacement(&self.u),
+            max_displacement: max_displacement(&self.reached.u),
             cycle,
-            target_force: transmitted_force(self.equations.model, self.support.map(T::to_f64)),
+            target_force: transmitted_force(
+                self.equations.model,
+                self.reached.support.map(T::to_f64),
+            ),
             solve_residual: solved.residual,
-            detail: Detail::Published(Published {
-                pairs: FoundPairs::new(pairs),
-                eq1_residual: residual(&self.u),
-                eq1_residual_step: residual(&solved.u),
-            }),
+            contact_residual: eq1_residual(measured, &self.reached.u),
+            contact_residual_step: eq1_residual(measured, &solved.u),
+            detail: Detail::Published(FoundPairs::new(pairs)),
         }
     }
 
     /// Returns the contact surface at the end.
     fn contact(
         &self,
-        in_contact: &[bool],
+        last: &Step,
         reaction: &DVector<f64>,
     ) -> Result<Vec<ContactNode>, InputError> {
         let surfaces = Surfaces::new(self.equations.model)?;
-        let shape = numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.u)));
+        let shape =
+            numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.reached.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let eliminated = self.equations.request.variant != Variant::Printed;
-        let (model, u) = (self.equations.model, self.u.map(T::to_f64));
+        let (model, u) = (self.equations.model, self.reached.u.map(T::to_f64));
         let forces = reactions(model, &pairings, reaction, eliminated);
         Ok(surfaces.nodes_at_end((model, &u), (&shape, &pairings), |i, pairing| NodeEnd {
             gap: pairing.gap,
-            in_contact: in_contact[i],
+            in_contact: last.statuses[i].is_closed(),
             status: None,
             force: forces[i],
         }))
     }
+}
+
+/// Returns the constraints that bind nodes by eq. (1).
+fn bound<T: Scalar>(nodes: Vec<NodeToSegment<T>>) -> Vec<Constraint<T>> {
+    nodes.into_iter().map(Into::into).collect()
 }
 
 /// Returns the coordinates of each node as `f64`, length.
@@ -324,15 +316,12 @@ fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
 
 /// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is
 /// interpolated between their master nodes.
-fn eq1_residual<'a, T: Scalar>(
-    bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
-    u: &DVector<T>,
-) -> f64 {
+fn eq1_residual<T: Scalar>(bound: &[Constraint<T>], u: &DVector<T>) -> f64 {
     let mut largest = T::zero();
-    for (node, masters) in bound {
+    for Constraint { node, masters, .. } in bound {
         for direction in [0, 1] {
-            let component = |node: NodeId| node.components(u)[direction];
-            let target = sum(masters.iter().map(|&(master, k)| k * component(master)));
+            let component = |node: &NodeId| node.components(u)[direction];
+            let target = sum(masters.iter().map(|(master, k)| *k * component(master)));
             largest = largest.max((component(node) - target).abs());
         }
     }

@@ -41,46 +41,32 @@ fn is_loaded(model: &Model, bodies: &[usize]) -> bool {
 }
 
 /// Returns the sum of the receivers' reactions and of their own load, force: what contact passes to them,
-/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom.
+/// with the opposite sign; and what contact adds to the forces on the restraints of both bodies, by degree of
+/// freedom, force: a restrained target node passes its part of a contact node's force on. `force` is K·u − F
+/// and `load` is F, by degree of freedom.
 pub fn support<T: Scalar>(
     model: &Model,
     constraints: &[Constraint<T>],
     force: &DVector<T>,
     load: &DVector<T>,
-) -> [T; 2] {
+) -> ([T; 2], DVector<T>) {
     let mut total = support_force(model, force, load);
+    let mut passed = DVector::from_element(model.dofs(), T::zero());
     let receivers = receivers(model);
     for constraint in constraints {
-        let passed = constraint_force(model, constraint, force);
-        for direction in [0, 1] {
-            let to_restrained = constraint.masters.iter().filter(|(master, _)| {
-                receivers.iter().any(|b| model.bodies[*b].has(*master))
-                    && model.is_restrained(master.dofs()[direction])
-            });
-            total[direction] += sum(to_restrained.map(|(_, w)| *w)) * passed[direction];
-        }
-    }
-    total
-}
-
-/// Returns what contact adds to the forces on the restraints of both bodies, by degree of freedom, force: a
-/// restrained target node passes its part of a contact node's force on.
-pub fn passed<T: Scalar>(
-    model: &Model,
-    constraints: &[Constraint<T>],
-    force: &DVector<T>,
-) -> DVector<T> {
-    let mut all = DVector::from_element(model.dofs(), T::zero());
-    for constraint in constraints {
         let own = constraint_force(model, constraint, force);
-        let masters = constraint.masters.iter();
-        for (dof, weight) in masters.flat_map(|(node, w)| node.dofs().map(|dof| (dof, *w))) {
-            if model.is_restrained(dof) {
-                all[dof.index()] += weight * own[dof.direction()];
+        for direction in [0, 1] {
+            let masters = constraint.masters.iter().map(|(node, w)| (node.dofs()[direction], *w));
+            let restrained = masters.filter(|(dof, _)| model.is_restrained(*dof));
+            for (dof, weight) in restrained.clone() {
+                passed[dof.index()] += weight * own[direction];
             }
+            let is_received = |dof: Dof| receivers.iter().any(|b| model.bodies[*b].has(dof.node()));
+            let received = restrained.filter(|(dof, _)| is_received(*dof));
+            total[direction] += sum(received.map(|(_, weight)| weight)) * own[direction];
         }
     }
-    all
+    (total, passed)
 }
 
 /// Returns the forces of the restraints alone by degree of freedom, force, from the forces on them.

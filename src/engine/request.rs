@@ -117,6 +117,16 @@ impl Request {
         self.arithmetic.solver(self.variant == Variant::Printed)
     }
 
+    /// Returns whether its run holds dense 2R x 2R matrices of the scalar: sparse LU takes a sparse `Km` as
+    /// printed, but no sparse Tᵀ K T.
+    pub fn is_dense(&self) -> bool {
+        match (self.variant, self.solver()) {
+            (Variant::Unilateral, _) | (_, Solver::SparseCholesky) => false,
+            (Variant::Printed | Variant::Tied | Variant::Stepped, Solver::DenseLu) => true,
+            (variant, Solver::SparseLu) => variant != Variant::Printed,
+        }
+    }
+
     /// Returns whether mortar gives eq. (1) its weights, under the variants that impose it.
     pub fn is_bound_by_mortar(&self) -> bool {
         match (self.variant, self.contact.coupling) {

@@ -29,6 +29,9 @@ pub struct Step {
     pub k: usize,
     /// The shape from which the step started: the coordinates of each node, length.
     pub shape: Arc<Vec<[f64; 2]>>,
+    /// The status of each entry of the contact surface: that which was imposed. Under the paper's variants a
+    /// node whose dy is 1 sticks, any other one is open.
+    pub statuses: Vec<Status>,
     /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact, of a published variant in the shape from
@@ -43,6 +46,12 @@ pub struct Step {
     pub target_force: f64,
     /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations.
     pub solve_residual: f64,
+    /// The residual of the contact condition, length: the largest |u_cont − u_targ|, |v_cont − v_targ| of
+    /// eq. (1) over nodes in contact, in total displacements; under `unilateral` the largest gap of a closed
+    /// node or penetration of another one.
+    pub contact_residual: f64,
+    /// The same in the displacements solved for: the increment where the load is stepped.
+    pub contact_residual_step: f64,
     /// The results that only this kind of variant has.
     pub detail: Detail,
 }
@@ -50,22 +59,11 @@ pub struct Step {
 /// The results of a step that depend on the kind of variant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Detail {
-    /// An iteration of a variant that the paper describes.
-    Published(Published),
+    /// An iteration of a variant that the paper describes: the pairs that `c_cnt` found in the shape at the
+    /// start.
+    Published(FoundPairs),
     /// An iteration of the active set under `unilateral`.
     Unilateral(Unilateral),
-}
-
-/// An iteration of a variant that the paper describes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Published {
-    /// The pairs that `c_cnt` found in the shape at the start.
-    pub pairs: FoundPairs,
-    /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
-    /// contact, in total displacements, length.
-    pub eq1_residual: f64,
-    /// The same in the displacements solved for: the increment where the load is stepped.
-    pub eq1_residual_step: f64,
 }
 
 /// The pairs of an iteration in the arrays of `c_cnt`, but of `k_cnt`, which has a row for each node of
@@ -119,8 +117,6 @@ pub struct Unilateral {
     /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
     /// second.
     pub load: f64,
-    /// The status that was imposed on each entry of the contact surface.
-    pub statuses: Vec<Status>,
     /// The pairing of each entry in the shape in which contact was measured.
     pub pairings: Arc<Vec<Option<Pairing>>>,
     /// The largest friction coefficient that a pressed node needs not to slide; nothing where none is
@@ -128,8 +124,6 @@ pub struct Unilateral {
     pub friction_needed: Option<f64>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub friction: Vec<(Dof, f64)>,
-    /// The largest gap of a closed node or penetration of another one afterwards, length.
-    pub violation: f64,
     /// The stiffness of the springs that held the nodes to their places in the shape before, over that of
     /// the bodies; 0 where there were none.
     pub springs: f64,
@@ -293,34 +287,13 @@ impl Step {
     }
 
     /// Returns whether each entry of the contact surface is in contact.
-    pub fn statuses(&self) -> Vec<bool> {
-        match &self.detail {
-            Detail::Published(step) => step.pairs.dy.iter().map(|dy| *dy == 1).collect(),
-            Detail::Unilateral(step) => {
-                step.statuses.iter().map(|status| status.is_closed()).collect()
-            }
-        }
-    }
-
-    /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
-    pub fn contact_residual(&self) -> f64 {
-        match &self.detail {
-            Detail::Published(step) => step.eq1_residual,
-            Detail::Unilateral(step) => step.violation,
-        }
-    }
-
-    /// Returns the same residual in the displacements that this step solved for.
-    pub fn contact_residual_step(&self) -> f64 {
-        match &self.detail {
-            Detail::Published(step) => step.eq1_residual_step,
-            Detail::Unilateral(step) => step.violation,
-        }
+    pub fn closed(&self) -> impl Iterator<Item = bool> {
+        self.statuses.iter().map(|status| status.is_closed())
     }
 
     /// Returns the nodes of `model`'s contact surface in contact.
     pub fn contact_set(&self, model: &Model) -> Vec<NodeId> {
-        let nodes = model.contact.nodes.iter().zip(self.statuses());
+        let nodes = model.contact.nodes.iter().zip(self.closed());
         nodes.filter(|(_, in_contact)| *in_contact).map(|(node, _)| *node).collect()
     }
 }

@@ -156,7 +156,7 @@ fn check_finite(solution: &Solution) -> Result<(), InputError> {
     let of_element = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
     let of_step = |step: &Step| {
         let known = step.max_displacement + step.target_force;
-        (known + step.contact_residual() + step.solve_residual).is_finite()
+        (known + step.contact_residual + step.solve_residual).is_finite()
     };
     if solution.u.iter().all(|x| x.is_finite())
         && solution.elements.iter().all(of_element)

@@ -58,11 +58,7 @@ pub fn stretches(solution: &Solution) -> Vec<Stretch> {
         let own: Vec<&ContactNode> =
             (0..nodes.len()).filter(|i| first[*i] == k).map(|i| nodes[i]).collect();
         let of_stretch = sides.iter().filter(|side| first[side[0]] == k);
-        let place = |i: usize| model.coordinates(nodes[i].node);
-        let length = |[a, b]: &[usize; 2]| {
-            let ([ax, ay], [bx, by]) = (place(*a), place(*b));
-            (bx - ax).hypot(by - ay)
-        };
+        let length = |side: &[usize; 2]| model.length(side.map(|i| nodes[i].node));
         Some(Stretch {
             bodies: bodies[k]?.map(|body| model.bodies[body].name.clone()),
             width: of_stretch.map(length).sum(),
@@ -110,7 +106,7 @@ fn bodies(solution: &Solution) -> HashMap<NodeId, [usize; 2]> {
             own.pairings.iter().flatten().map(|p| [p.node, p.masters[0].0]).collect()
         }
         Detail::Published(own) => {
-            let rows = own.pairs.masters.iter().filter(|(_, row)| row[0] >= 1.0);
+            let rows = own.masters.iter().filter(|(_, row)| row[0] >= 1.0);
             rows.map(|(node, row)| [*node, row[0] as usize].map(NodeId::from_number)).collect()
         }
     };

@@ -201,7 +201,7 @@ pub fn check_tolerance(tolerance: f64) -> Result<()> {
 }
 
 /// The model of contact, beyond what the paper prints.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
@@ -211,7 +211,6 @@ pub struct ContactModel {
     pub geometry: Geometry,
     /// The number of equal steps in which `unilateral` applies the load of a stage; without
     /// friction the path of the load has no effect, and there is one.
-    #[serde(default = "load_steps")]
     pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     pub status: StatusRule,
@@ -243,11 +242,6 @@ impl Default for ContactModel {
             status: StatusRule::default(),
         }
     }
-}
-
-/// Returns the number of steps of a stage's load where a scene sets none.
-pub fn load_steps() -> usize {
-    LOAD_STEPS
 }
 
 impl Variant {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use plane_contact::engine::contact::ContactNode;
 use plane_contact::engine::error::Error;
-use plane_contact::engine::{self, Detail, Request, Solution, share_of_load};
+use plane_contact::engine::{self, Request, Solution, share_of_load};
 use plane_contact::error::InputError;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::scene::Scene;
@@ -59,8 +59,8 @@ fn answer(row: &str) -> String {
     let mut start = None;
     let ending = scene(row).map_err(Error::from).and_then(|scene| {
         engine::solve(&Request::new(&scene), &mut |step| {
-            if let Detail::Unilateral(own) = &step.detail {
-                start.get_or_insert_with(|| own.statuses.iter().map(letter).collect::<String>());
+            if step.unilateral().is_some() {
+                start.get_or_insert_with(|| step.statuses.iter().map(letter).collect::<String>());
             }
         })
     });

@@ -99,7 +99,7 @@ fn compared(old: &Snapshot, new: &Snapshot) -> VerifiedRun {
 /// The contact surface in an iteration, by the listing's own arrays.
 fn found(step: &Step) -> (Vec<usize>, Vec<usize>) {
     let Detail::Published(step) = &step.detail else { panic!("a variant of the paper") };
-    (step.pairs.ct.as_slice().to_vec(), step.pairs.dy.as_slice().to_vec())
+    (step.ct.as_slice().to_vec(), step.dy.as_slice().to_vec())
 }
 
 /// The first iteration and node where two requests go different ways, found by looking at both runs.

@@ -107,11 +107,8 @@ impl Surfaces {
     /// Returns what each contact node faces before any load.
     fn faced(&self, model: &Model) -> Vec<(NodeId, FacedPoint)> {
         let outline = Outline::new(&self.target, &model.nodes);
-        let faced = |&node: &NodeId| {
-            let normal = self.contact.node_normals.get(&node).copied();
-            let at = model.coordinates(node);
-            Some((node, outline.closest_point(at, at, normal)?))
-        };
+        let faced =
+            |&node: &NodeId| Some((node, outline.faced((node, &self.contact), [&model.nodes; 2])?));
         self.nodes.iter().filter_map(faced).collect()
     }
 

@@ -69,13 +69,12 @@ impl Surfaces {
         let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
         let search = Search { surfaces: self, target: &target, tree };
         let cover = |(edge, at_rest): (&Edge, &PlacedEdge)| {
-            let placed = edge.in_shape(shape);
-            Covered { stretches: search.cover(&placed, at_rest.at(0.5)), length: placed.length }
+            search.cover(&edge.in_shape(shape), at_rest.at(0.5))
         };
-        let covered: Vec<Covered<T>> =
+        let covered: Vec<Vec<Stretch<T>>> =
             self.contact.edges.iter().zip(&self.contact.undeformed).map(cover).collect();
         for (i, edge) in self.contact.edges.iter().enumerate() {
-            let Some(integrals) = Integrals::over(&covered[i].stretches) else { continue };
+            let Some(integrals) = Integrals::over(&covered[i]) else { continue };
             for (k, node) in edge.nodes.into_iter().enumerate() {
                 let mut others = self.contact.at[&node].iter().filter(|other| **other != i);
                 if others.any(|other| search.is_cut_off([&covered[i], &covered[*other]], k)) {
@@ -87,7 +86,7 @@ impl Surfaces {
                     normal: [T::zero(); 2],
                     edges: BTreeMap::new(),
                 });
-                gathered.add(k, &integrals, &covered[i].stretches, &search);
+                gathered.add(k, &integrals, &covered[i], &search);
             }
         }
         let pairing = |(node, tributary): (&NodeId, T)| {
@@ -128,13 +127,6 @@ impl<T: Scalar> Stretch<T> {
         let xi = [self.from, self.to][end];
         Foot { edge: self.edge, eta: (xi - self.ends[0]) / (self.ends[1] - self.ends[0]) }
     }
-}
-
-/// What a contact edge covers.
-struct Covered<T> {
-    stretches: Vec<Stretch<T>>,
-    /// The length of the contact edge, length.
-    length: T,
 }
 
 /// The target in a shape, for the search of what contact edges cover.
@@ -219,17 +211,16 @@ impl<T: Scalar> Search<'_, T> {
 
     /// Returns whether node `node`, 0 or 1, of a contact edge does not count for what the edge covers, as
     /// that lies behind what the other contact edge at the node covers.
-    fn is_cut_off(&self, [own, other]: [&Covered<T>; 2], node: usize) -> bool {
-        let last = |stretches: &[Stretch<T>], end: usize| {
+    fn is_cut_off(&self, [own, other]: [&[Stretch<T>]; 2], node: usize) -> bool {
+        let last = |covered: &[Stretch<T>], end: usize| {
             let nearer = |a: &&Stretch<T>, b: &&Stretch<T>| match end {
                 0 => in_order(b.from, a.from),
                 _ => in_order(a.to, b.to),
             };
-            stretches.iter().max_by(nearer).map(|stretch| stretch.foot(end))
+            covered.iter().max_by(nearer).map(|stretch| (stretch.length, stretch.foot(end)))
         };
-        let feet = last(&other.stretches, 1 - node).zip(last(&own.stretches, node));
-        feet.is_some_and(|(last, next)| {
-            !self.goes_on(last.edge, next.edge) && self.is_behind(own.length, last, next, BEHIND)
+        last(other, 1 - node).zip(last(own, node)).is_some_and(|((_, last), (length, next))| {
+            !self.goes_on(last.edge, next.edge) && self.is_behind(length, last, next, BEHIND)
         })
     }
 

@@ -12,13 +12,8 @@ use problem::model::NodeId;
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let outline = Outline::new(&surfaces.target, shape);
     let mut listed = HashSet::new();
-    let normals = &surfaces.contact.node_normals;
     let pairing = |(&node, length): (&NodeId, f64)| {
-        let faced = outline.closest_point(
-            shape[node.index()],
-            surfaces.at_rest[node.index()],
-            normals.get(&node).copied(),
-        )?;
+        let faced = outline.faced((node, &surfaces.contact), [shape, &surfaces.at_rest])?;
         let FacedPoint { edge, masters, normal, gap, corner, .. } = faced;
         let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
         let pairing = Pairing { node, edge, masters, normal, gap, length, corner };

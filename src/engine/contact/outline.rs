@@ -93,14 +93,14 @@ impl<'a> Outline<'a> {
         Outline { surface, placed, normals, tree, tie }
     }
 
-    /// Returns what a node at `p` faces, `at_rest` in the undeformed shape; `own` is the normal out of the
-    /// node's own body in the undeformed shape, None where it bounds no edge and so faces every edge.
-    pub(super) fn closest_point(
+    /// Returns what a node of another surface faces in the shape; `at_rest` is the undeformed one.
+    pub(super) fn faced(
         &self,
-        p: Vector,
-        at_rest: Vector,
-        own: Option<Vector>,
+        (node, surface): (NodeId, &Surface),
+        [shape, at_rest]: [&[Vector]; 2],
     ) -> Option<FacedPoint> {
+        let [p, at_rest] = [shape, at_rest].map(|shape| shape[node.index()]);
+        let own = surface.node_normals.get(&node).copied();
         let node = FacingNode { outline: self, p, own };
         let best = Cell::new(f64::INFINITY);
         let near: RefCell<Vec<(f64, Part)>> = RefCell::default();
@@ -153,6 +153,8 @@ impl<'a> Outline<'a> {
 struct FacingNode<'a> {
     outline: &'a Outline<'a>,
     p: Vector,
+    /// The normal out of its own body in the undeformed shape; None where it bounds no edge and so faces every
+    /// edge.
     own: Option<Vector>,
 }
 

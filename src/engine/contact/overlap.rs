@@ -81,9 +81,7 @@ impl Surfaces {
                 let height = height.into_iter().fold(0.0, f64::max);
                 // Whether the node lies over an edge of the other group, not past its end.
                 let over = |own: &Surface, other: &Outline| {
-                    let normal = own.node_normals.get(&node).copied();
-                    let faced =
-                        other.closest_point(shape[node.index()], model.coordinates(node), normal);
+                    let faced = other.faced((node, own), [shape, &model.nodes]);
                     Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
                 let watched = if facing.contains(&node)

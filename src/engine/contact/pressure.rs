@@ -153,11 +153,10 @@ fn over(a: f64, b: f64) -> Option<f64> {
 
 /// Returns the distance of each entry from the first along the undeformed contact surface, length.
 pub(crate) fn arcs(model: &Model) -> Vec<f64> {
-    let at = |i: usize| model.coordinates(model.contact.nodes[i]);
-    let mut arcs = vec![0.0; model.contact.nodes.len()];
+    let nodes = &model.contact.nodes;
+    let mut arcs = vec![0.0; nodes.len()];
     for i in 1..arcs.len() {
-        let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
-        arcs[i] = arcs[i - 1] + (bx - ax).hypot(by - ay);
+        arcs[i] = arcs[i - 1] + model.length([nodes[i - 1], nodes[i]]);
     }
     arcs
 }

@@ -24,7 +24,7 @@ use crate::contact::Status;
 use crate::distance::over;
 use crate::error::Error;
 use crate::linear::{Arithmetic, ScalarName};
-use crate::{Detail, Request, Solution, Step, check, last_under_each_load, solve};
+use crate::{Request, Solution, Step, check, last_under_each_load, solve};
 use numbers::finite;
 use problem::model::{Force, Model, NodeId};
 use problem::modelling::Variant;
@@ -183,12 +183,9 @@ impl Perturbed {
 
 /// Returns the statuses in each iteration of the paper's variants, and at the end of each load of a path.
 fn ends(solution: &Solution) -> Vec<(When, Vec<Status>)> {
-    let found = |step: &Step| match &step.detail {
-        Detail::Published(own) => {
-            let status = |dy: &usize| if *dy == 1 { Status::Stick } else { Status::Open };
-            (When::Iteration(step.k), own.pairs.dy.iter().map(status).collect())
-        }
-        Detail::Unilateral(own) => (When::Load(own.load), own.statuses.to_vec()),
+    let found = |step: &Step| {
+        let when = step.unilateral().map_or(When::Iteration(step.k), |own| When::Load(own.load));
+        (when, step.statuses.clone())
     };
     let steps = match solution.request.variant {
         Variant::Unilateral => last_under_each_load(&solution.steps),

@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::DVector;
 
 use crate::contact::{Status, Surfaces};
-use crate::{Constraint, Detail, Solution, Stiffness};
+use crate::{Constraint, Solution, Stiffness};
 use base::choices;
 use problem::element::Plane;
 use problem::model::{Dof, Force, Model, NodeId, Triangle, TriangleSide};
@@ -189,13 +189,10 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
 fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
     let (model, last) = (&*solution.model, solution.last());
     let nodes = &model.contact.nodes;
-    let closed = last.statuses();
-    let sticks = |k: usize| match &last.detail {
-        Detail::Unilateral(own) => own.statuses[k] == Status::Stick,
-        Detail::Published(_) => closed[k],
+    let opens = |k: usize| {
+        let mut beside = [k.wrapping_sub(1), k + 1].into_iter();
+        beside.any(|k| last.statuses.get(k) == Some(&Status::Open))
     };
-    let opens =
-        |k: usize| [k.wrapping_sub(1), k + 1].iter().any(|k| closed.get(*k) == Some(&false));
     let end = |k: usize| {
         let constraint = last.constraints.iter().find(|constraint| constraint.node == nodes[k])?;
         let unlike = || {
@@ -209,7 +206,7 @@ fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
         let other = if opens(k) { carrier(constraint) } else { unlike() };
         Some([nodes[k], other?])
     };
-    (0..nodes.len()).filter(|k| sticks(*k)).filter_map(end).collect()
+    (0..nodes.len()).filter(|k| last.statuses[*k] == Status::Stick).filter_map(end).collect()
 }
 
 /// Returns whether bodies that are bonded at the corners of both make a point without a limit there. Where
@@ -250,15 +247,12 @@ fn edges(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2])> {
     let constraints = &solution.last().constraints;
     let pairs = constraints.iter().filter_map(|own| Some([own.node, carrier(own)?]));
     let pairs: Vec<[NodeId; 2]> = pairs.collect();
-    let distance = |a: NodeId, b: NodeId| {
-        let ([ax, ay], [bx, by]) = (model.coordinates(a), model.coordinates(b));
-        (ax - bx).hypot(ay - by)
-    };
     let goes_on_beside = |node: NodeId, other: NodeId| {
         let body = model.body_of(other);
         let outline =
             turns.iter().filter(|(at, _)| **at != node && body.is_some_and(|b| b.has(**at)));
-        let nearest = outline.min_by(|a, b| distance(node, *a.0).total_cmp(&distance(node, *b.0)));
+        let distance = |other: &NodeId| model.length([node, *other]);
+        let nearest = outline.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
         nearest.is_some_and(|(_, turn)| turn.is_smooth())
     };
     let is_edge = |pair: &&[NodeId; 2]| {

@@ -1,6 +1,6 @@
 //! Dense LU with partial pivoting, and Cholesky factors of what is left of a matrix, by the library faer.
 
-use super::rounding;
+use super::is_lost;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
@@ -37,11 +37,7 @@ impl DenseLu {
         let mut memory = MemBuffer::new(lu_in_place_scratch::<usize, f64>(n, n, par, params));
         let (view, stack) = (of_columns_mut(&mut factors), MemStack::new(&mut memory));
         lu_in_place(view, &mut order, &mut back, par, stack, params);
-        let singular = (0..n).find(|&j| {
-            let pivot = factors[(j, j)];
-            pivot.is_nan() || pivot.abs() <= rounding(n, f64::EPSILON) * columns[j]
-        });
-        if let Some(column) = singular {
+        if let Some(column) = (0..n).find(|&j| is_lost(&factors[(j, j)], columns[j], n)) {
             return Err(Singular { column, pivot: factors[(column, column)] });
         }
         let rows = Perm::new_checked(order.into(), back.into(), n);

@@ -1,6 +1,6 @@
 //! Elimination in numbers that no library factors: `f32`, double-doubles, rationals.
 
-use super::rounding;
+use super::is_lost;
 use nalgebra::DMatrix;
 
 use super::factors::Singular;
@@ -19,15 +19,12 @@ pub fn solve_dense<F: Field>(
     let mut rows: Vec<Vec<F>> = (0..n).map(|i| (0..n).map(|j| matrix(i, j)).collect()).collect();
     let largest = DMatrix::from_fn(n, n, |i, j| rows[i][j].size());
     for k in 0..n {
-        let size = |i: usize, rows: &[Vec<F>]| rows[i][k].size();
+        let size = |i: usize| rows[i][k].size();
         let candidates = (k..n).filter(|&i| !rows[i][k].vanishes());
-        let best = candidates.reduce(|a, i| if size(i, &rows) > size(a, &rows) { i } else { a });
-        // Of exact numbers it is 0, also where the largest is beyond every f64.
-        let least = (rounding(n, F::EPSILON) * largest.column(k).max()).max(0.0);
-        let pivot = best.map_or(0.0, |i| size(i, &rows));
-        let Some(best) = best.filter(|_| pivot >= least) else {
-            return Err(Singular { column: k, pivot });
-        };
+        let best = candidates.reduce(|a, i| if size(i) > size(a) { i } else { a }).unwrap_or(k);
+        if is_lost(&rows[best][k], largest.column(k).max(), n) {
+            return Err(Singular { column: k, pivot: size(best) });
+        }
         rows.swap(k, best);
         b.swap(k, best);
         eliminate(&mut rows, &mut b, k);

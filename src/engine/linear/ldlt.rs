@@ -6,8 +6,8 @@
 //! equations is that of `ordering`.
 
 use super::factors::Singular;
+use super::is_lost;
 use super::ordering::{order, places};
-use super::rounding;
 use super::symmetric::SparseSymmetric;
 use numbers::scalar::Field;
 
@@ -59,9 +59,9 @@ impl<F: Field> Ldlt<F> {
             for (i, a) in column {
                 y[i] = a;
             }
-            let least = rounding(n, F::EPSILON) * y[k].size();
+            let before = y[k].size();
             let pivot = factors.row(k, &path, &mut y);
-            if pivot.vanishes() || pivot.size().is_nan() || pivot.size() < least {
+            if is_lost(&pivot, before, n) {
                 return Err(Singular { column: factors.order[k], pivot: pivot.size() });
             }
             factors.pivots.push(pivot);

@@ -40,10 +40,19 @@ pub use sparse::SparseCholesky;
 pub use sparse_lu::SparseLu;
 pub use symmetric::{Pattern, SparseSymmetric};
 
+use numbers::scalar::Field;
+
 /// Returns the size of a pivot, relative to what stood in its place before n equations were eliminated, below
 /// which it may be rounding alone; `epsilon` is the scalar's.
 fn rounding(n: usize, epsilon: f64) -> f64 {
     16.0 * n as f64 * epsilon
+}
+
+/// Returns whether a pivot is 0, or may be rounding alone beside what stood in its place `before` n equations were
+/// eliminated.
+fn is_lost<F: Field>(pivot: &F, before: f64, n: usize) -> bool {
+    let size = pivot.size();
+    pivot.vanishes() || size.is_nan() || size < rounding(n, F::EPSILON) * before
 }
 
 /// Returns the size of a factor of an equation, relative to the largest, below which it may be rounding alone

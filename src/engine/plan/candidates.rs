@@ -45,9 +45,9 @@ impl Candidates {
         order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
         let mut found = vec![0; points.len()];
         for edge in model.target_edges() {
-            let [a, b] = edge.nodes.map(|node| model.coordinates(node));
-            let grown = tolerance + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
-            let near = Bounds::around(&[a, b]).padded(grown);
+            let grown = tolerance + MARGIN * model.length(edge.nodes);
+            let ends = edge.nodes.map(|node| model.coordinates(node));
+            let near = Bounds::around(&ends).padded(grown);
             let from = order.partition_point(|k| points[*k][axis] < near.low[axis]);
             let beside = order[from..].iter().take_while(|k| points[**k][axis] <= near.high[axis]);
             for k in beside.filter(|k| near.contains(points[**k])) {

@@ -15,8 +15,8 @@ pub use candidates::MARGIN;
 
 use candidates::Candidates;
 
+use crate::Request;
 use crate::linear::{ScalarName, Solver};
-use crate::{Request, is_dense};
 use base::choices;
 use base::error::Result;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
@@ -134,7 +134,7 @@ impl Plan {
             contact,
             scalar: arithmetic.scalar,
             solver,
-            storage: if is_dense(variant, arithmetic) { Storage::Dense } else { Storage::Sparse },
+            storage: if request.is_dense() { Storage::Dense } else { Storage::Sparse },
             orphans: model.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: line_of(model), nodes: half.nodes.len() }),
         })

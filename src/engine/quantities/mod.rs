@@ -103,24 +103,24 @@ quantities! {
         k: usize = at.step.k, "k" ["k"] None, "The number of the iteration, from 1.";
         in_contact: usize = at.step.in_contact, "in contact" [] None,
             "The number of contact nodes in contact.";
-        dy: Vec<u8> = at.step.statuses().into_iter().map(u8::from).collect(), "" ["dy"] None,
+        dy: Vec<u8> = at.step.closed().map(u8::from).collect(), "" ["dy"] None,
             "Which entries of the contact surface are in contact: 1 or 0 for each.";
         #[serde(skip_serializing_if = "Option::is_none")]
         load: Option<f64> = at.step.unilateral().map(|own| own.load), "load" [] One,
             "Under `unilateral`, the part of the path of the load that is applied; whole numbers \
              end stages.";
         #[serde(skip_serializing_if = "Option::is_none")]
-        statuses: Option<Vec<Status>> = at.step.unilateral().map(|own| own.statuses.clone()),
+        statuses: Option<Vec<Status>> = at.step.unilateral().map(|_| at.step.statuses.clone()),
             "" [] None,
             "Under `unilateral`, the status of each entry of the contact surface.";
         max_displacement: f64 = at.step.max_displacement, "largest |u|" ["max |u|"] Length,
             "The largest total displacement of a node.";
         cycle: Option<Cycle> = at.step.cycle.clone(), "contact state" [] None,
             "The earlier iterations with this contact state; null where it is new.";
-        eq1_residual: f64 = at.step.contact_residual(), "residual of contact" [] Length,
+        eq1_residual: f64 = at.step.contact_residual, "residual of contact" [] Length,
             "The residual of the contact condition: of eq. (1) in total displacements, or the \
              largest gap or overlap left under `unilateral`.";
-        eq1_residual_step: f64 = at.step.contact_residual_step(), "" [] Length,
+        eq1_residual_step: f64 = at.step.contact_residual_step, "" [] Length,
             "The same in the displacements solved for: the increment where the load is stepped.";
         target_force: f64 = at.step.target_force, "force on target" [] Force,
             "The force that contact passes from one body to the other: along the load where that \

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use engine::estimates::{Certainty, When, certain, perturbed};
 use engine::linear::{Arithmetic, ScalarName, Solver};
-use engine::{Request, Solution, Step, solve};
+use engine::{Request, Solution, solve};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::Scene;
 use proptest::prelude::*;
@@ -95,7 +95,7 @@ fn scene(drawn: &Drawn) -> Scene {
 
 /// The status of each contact node in each iteration.
 fn history(solution: &Solution) -> Vec<Vec<bool>> {
-    solution.steps.iter().map(Step::statuses).collect()
+    solution.steps.iter().map(|step| step.closed().collect()).collect()
 }
 
 /// What came of the scenes of a status rule and a coupling.

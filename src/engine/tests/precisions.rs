@@ -8,7 +8,7 @@ use engine::linear::{
     Arithmetic, DenseLu, Inputs, Ldlt, ScalarName, Solver, SparseSymmetric, inverse_norm,
     solve_dense,
 };
-use engine::{self, Request, Solution, Step};
+use engine::{self, Request, Solution};
 use nalgebra::{DMatrix, DVector};
 use numbers::scalar::Scalar;
 use paper::door;
@@ -172,7 +172,8 @@ fn what_rounding_is_measured_to_do_is_of_the_size_of_the_error() {
 fn error_and_measure(scene: &Scene, variant: Variant) -> Option<(f64, f64, f64)> {
     let plain = solve(scene, variant, Arithmetic::default()).ok()?;
     let exact = solve(scene, variant, arithmetic(ScalarName::Exact, None)).ok()?;
-    let statuses = |of: &Solution| -> Vec<_> { of.steps.iter().map(Step::statuses).collect() };
+    let statuses =
+        |of: &Solution| -> Vec<_> { of.steps.iter().map(|step| step.statuses.clone()).collect() };
     if statuses(&plain) != statuses(&exact) {
         return None;
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use engine::{Detail, Request, solve};
+use engine::{Request, solve};
 use fastrand::Rng;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use problem::scene::{Axis, SceneBuilder};
@@ -18,10 +18,7 @@ use testing::golden_file::assert_file;
 fn outcome(scene: &SceneBuilder) -> String {
     let Ok(scene) = scene.build() else { return "no scene".into() };
     match solve(&Request::new(&scene), &mut |_| ()) {
-        Ok(solution) => match &solution.last().detail {
-            Detail::Unilateral(own) => own.statuses.iter().map(letter).collect(),
-            Detail::Published(_) => unreachable!("unilateral was asked for"),
-        },
+        Ok(solution) => solution.last().statuses.iter().map(letter).collect(),
         Err(why) => format!("exit status {}", why.exit_status().number()),
     }
 }

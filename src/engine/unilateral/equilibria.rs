@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::condensed::Condensed;
+use super::path::Point;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSearch, StateSolution};
 use super::rigid::BALANCED;
 use crate::contact::{Sense, Status};
@@ -25,25 +26,10 @@ struct States {
 
 /// A step of the load that was taken.
 pub(super) struct TakenStep {
-    /// The part of the path at its end.
-    pub(super) to: f64,
-    /// Whether no step was taken before it.
-    pub(super) is_first: bool,
-    /// The displacements before it, length.
-    pub(super) before: DVector<f64>,
+    pub(super) from: Point,
+    pub(super) to: Point,
+    /// The place in which contact was measured at its end.
     pub(super) config: Configuration,
-    pub(super) statuses: Vec<Status>,
-    /// The displacements at its end, length.
-    pub(super) u: DVector<f64>,
-}
-
-impl TakenStep {
-    /// Returns the step to a load from the displacements `before`, length.
-    pub(super) fn new(to: f64, is_first: bool, before: DVector<f64>, found: &Equilibrium) -> Self {
-        let Equilibrium { config, last, .. } = found;
-        let (statuses, u) = (last.statuses.clone(), last.solution.u.clone());
-        TakenStep { to, is_first, before, config: config.clone(), statuses, u }
-    }
 }
 
 /// Returns what is known of equilibria beside those of the steps that were `taken`, of which the last led to
@@ -91,13 +77,13 @@ pub(super) fn uniqueness(
     let number = states.iter().map(|states| states.number).sum();
     let others = steps.iter().zip(&states);
     let others = others.flat_map(|(step, states)| problem.others(step, &states.worth)).collect();
-    let last_only = !steps[0].is_first;
+    let last_only = steps[0].from.statuses.is_some();
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 
 /// Returns the setting of a step that was taken.
 pub(super) fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
-    problem.setting(step.to, &step.before, None)
+    problem.setting(step.to.load, &step.from.u, None)
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing
@@ -140,14 +126,15 @@ impl Problem<'_> {
     /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
     fn others(&self, step: &TakenStep, states: &[Vec<Status>]) -> Vec<OtherEquilibrium> {
         let setting = setting(self, step);
-        let scale = step.u.amax();
+        let TakenStep { config, to, .. } = step;
+        let scale = to.u.amax();
         let mut others: Vec<(DVector<f64>, OtherEquilibrium)> = Vec::new();
         for statuses in states {
-            let Some(solution) = self.search(&step.config, &setting).try_statuses(statuses) else {
+            let Some(solution) = self.search(config, &setting).try_statuses(statuses) else {
                 continue;
             };
             let apart = |u: &DVector<f64>| (&solution.u - u).amax();
-            let change = apart(&step.u);
+            let change = apart(&to.u);
             if change > APART * scale && others.iter().all(|(u, _)| apart(u) > APART * scale) {
                 let nodes = |wanted: fn(&Status) -> bool| {
                     let entries = statuses.iter().zip(self.surfaces.nodes());
@@ -155,7 +142,7 @@ impl Problem<'_> {
                 };
                 let stick = nodes(|status| *status == Status::Stick);
                 let slip = nodes(|status| matches!(status, Status::Slip(_)));
-                others.push((solution.u, OtherEquilibrium { load: step.to, stick, slip, change }));
+                others.push((solution.u, OtherEquilibrium { load: to.load, stick, slip, change }));
             }
         }
         others.into_iter().map(|(_, other)| other).collect()
@@ -164,14 +151,14 @@ impl Problem<'_> {
     /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
     /// many as are tried.
     fn neighbours(&self, step: &TakenStep) -> States {
-        let TakenStep { config, statuses, .. } = step;
+        let (config, statuses) = (&step.config, step.to.statuses.as_deref().unwrap_or_default());
         let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
         let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
         let with = |i: usize| {
             let other =
                 self.choices(config, i).into_iter().filter(move |other| *other != statuses[i]);
             other.map(move |other| {
-                let mut state = statuses.clone();
+                let mut state = statuses.to_vec();
                 state[i] = other;
                 state
             })

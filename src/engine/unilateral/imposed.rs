@@ -3,9 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::problem::{Configuration, Problem, StateAttempt, StateSearch, StateSolution};
+use super::problem::{Configuration, Problem, StateSearch, StateSolution};
 use crate::contact::{ContactForce, Pairing, Status, add, contact_forces};
-use crate::elimination::Constraint;
+use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, NoEquilibrium};
 use crate::held::{Held, Loaded, Unheld};
 use crate::linear::{Factors, SparseCholesky};
@@ -58,37 +58,11 @@ impl StateSearch<'_> {
         })
     }
 
-    /// Solves for the displacements and forces under imposed statuses.
-    ///
-    /// # Errors
-    /// No friction agrees with its own normal forces.
-    pub(super) fn solve(
-        &self,
-        statuses: &[Status],
-        constraints: &[Constraint],
-    ) -> Result<StateAttempt, NoEquilibrium> {
-        match self.held(statuses, constraints)? {
-            Ok((_, solved)) => Ok(StateAttempt::Solved(solved)),
-            Err(Unheld { t, dof }) => {
-                let soft = self.problem.stiffness.reduced(&t).softly_held();
-                let load = t.load(&self.setting.load);
-                let motion = SparseCholesky::new(&soft).ok().map(|k| t.motion(&k.solve(&load)));
-                Ok(StateAttempt::Free { dof, motion })
-            }
-        }
-    }
-
-    /// Solves for the displacements and forces under imposed statuses; None where statuses leave a body free,
-    /// or their friction jams.
-    pub(super) fn solved_state(
-        &self,
-        statuses: &[Status],
-        constraints: &[Constraint],
-    ) -> Option<StateSolution> {
-        match self.solve(statuses, constraints) {
-            Ok(StateAttempt::Solved(solution)) => Some(solution),
-            Ok(StateAttempt::Free { .. }) | Err(NoEquilibrium { .. }) => None,
-        }
+    /// Returns the motion under the load of bodies that constraints leave free, on soft springs.
+    pub(super) fn motion(&self, t: &Elimination) -> Option<DVector<f64>> {
+        let soft = self.problem.stiffness.reduced(t).softly_held();
+        let load = t.load(&self.setting.load);
+        SparseCholesky::new(&soft).ok().map(|k| t.motion(&k.solve(&load)))
     }
 
     /// Adds the forces of contact, and what friction does, to the bodies' own displacements; None where the

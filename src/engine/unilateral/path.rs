@@ -32,13 +32,13 @@ const FIRST: f64 = 1e-3;
 
 /// A point of the path: what the next step starts from.
 #[derive(Clone)]
-struct Point {
+pub(super) struct Point {
     /// The part of the path that was applied; whole numbers end stages.
-    load: f64,
+    pub(super) load: f64,
     /// The displacements, length.
-    u: DVector<f64>,
-    /// The statuses; none at the beginning.
-    statuses: Option<Vec<Status>>,
+    pub(super) u: DVector<f64>,
+    /// The statuses; None at the beginning.
+    pub(super) statuses: Option<Vec<Status>>,
 }
 
 impl Point {
@@ -78,9 +78,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
 
 /// Returns the number of steps in which a node that was closed has another status at the end.
 fn changes(steps: &[Step]) -> usize {
-    let own = |i: usize| steps[i].unilateral();
-    let ends: Vec<_> = last_under_each_load(steps).into_iter().filter_map(own).collect();
-    let changed = |pair: &&[&solution::Unilateral]| {
+    let ends: Vec<&Step> = last_under_each_load(steps).into_iter().map(|i| &steps[i]).collect();
+    let changed = |pair: &&[&Step]| {
         let mut statuses = pair[0].statuses.iter().zip(&pair[1].statuses);
         statuses.any(|(before, after)| before.is_closed() && before != after)
     };
@@ -234,7 +233,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// None was found either, or it is known that there is none: under friction, whether the bodies slide.
     fn on_springs(&mut self, from: &Point, to: f64, why: Error) -> Result<Equilibrium, Error> {
-        self.taken.retain(|part| part.to <= from.load);
+        self.taken.retain(|part| part.to.load <= from.load);
         let why = match why {
             Error::Equilibrium(why) if why.cause == Cause::NotFound => {
                 match self.step(from, to, |problem, setting, watch| {
@@ -268,8 +267,8 @@ impl<'a> Run<'a> {
         if !self.keeps_all {
             self.taken.clear();
         }
-        let is_first = from.statuses.is_none();
-        self.taken.push(TakenStep::new(to, is_first, from.u.clone(), found));
+        let (to, config) = (Point::after(to, found), found.config.clone());
+        self.taken.push(TakenStep { from: from.clone(), to, config });
     }
 
     /// Goes to the load `to` in one step by a search.
@@ -290,7 +289,7 @@ impl<'a> Run<'a> {
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let last = self.taken.pop().expect("a path has a step");
-        let setting = self.problem.setting(to, &last.before, None);
+        let setting = self.problem.setting(to, &last.from.u, None);
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
@@ -300,7 +299,7 @@ impl<'a> Run<'a> {
         if let Some(last) = self.steps.last_mut() {
             *last = step(self.problem, (k, to), &load, &end.config, &end.last);
         }
-        self.taken.push(TakenStep::new(last.to, last.is_first, last.before, &end));
+        self.take(&last.from, to, &end);
         Ok(end)
     }
 
@@ -378,19 +377,20 @@ fn step(
     Step {
         k,
         shape: Arc::clone(&config.shape),
+        statuses: statuses.clone(),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
         max_displacement: max_displacement(&solution.u),
         cycle: cycle.clone(),
         target_force,
         solve_residual: solution.residual,
+        contact_residual: *violation,
+        contact_residual_step: *violation,
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
-            statuses: statuses.clone(),
             pairings: Arc::clone(&config.pairings),
             friction_needed: friction_needed(statuses, &solution.forces),
             friction: solution.friction.clone(),
-            violation: *violation,
             springs: iteration.springs,
         }),
     }

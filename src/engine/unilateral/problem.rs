@@ -1,6 +1,7 @@
 //! The problem of contact under one load: the scene, where its nodes face the target, and what statuses
 //! impose.
 
+use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -171,16 +172,6 @@ pub(super) struct Equilibrium {
     /// The largest force of the springs on which it was found, over the largest of the loads and of those
     /// of contact; None where it was found without springs.
     pub(super) springs: Option<f64>,
-}
-
-/// The result of an attempt to solve.
-pub(super) enum StateAttempt {
-    Solved(StateSolution),
-    /// A degree of freedom without restraint, and the motion under the load on soft springs.
-    Free {
-        dof: Dof,
-        motion: Option<DVector<f64>>,
-    },
 }
 
 /// Sees each iteration, and the place in which its contact was measured.
@@ -433,17 +424,15 @@ impl<'a> Problem<'a> {
             Coupling::Mortar => true,
         };
         let rounding = self.closed.max(APART * max_displacement(u));
+        let written = LazyCell::new(|| self.written());
         found.retain(|inside| match inside.watched {
             Watched::Contact => inside.depth > UNSEEN * size(self.model),
             Watched::Target => !sees_target && inside.depth > UNSEEN * size(self.model),
-            Watched::Not => inside.depth > inside.height + rounding,
+            Watched::Not => {
+                let beyond = inside.depth - inside.height - rounding;
+                beyond > 0.0 && beyond > *written
+            }
         });
-        if found.iter().any(|inside| inside.watched == Watched::Not) {
-            let written = self.written();
-            found.retain(|inside| {
-                inside.watched != Watched::Not || inside.depth > inside.height + written + rounding
-            });
-        }
         found
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
 use super::nonnegative::least;
 use crate::contact::Pairing;
-use crate::elimination::{Constraint, Motion};
+use crate::elimination::Constraint;
 use problem::model::{Body, Dof, FREE, Model, NodeId, RigidBody};
 
 /// The part of forces, or of their moments about the farthest node, below which what is left of them is
@@ -34,17 +34,13 @@ const MOST: usize = 150;
 pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
     let motions = RigidMotions::new(model, &model.nodes);
     let mut gram = DMatrix::<f64>::zeros(motions.free, motions.free);
-    for Constraint { node, masters, motion } in constraints {
-        let directions = match motion {
-            Motion::Along(normal, _) => vec![*normal],
-            Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
-        };
-        for direction in directions {
-            let row = motions.in_free(&motions.relative(*node, masters, direction));
-            let bound: Vec<usize> = (0..row.len()).filter(|k| row[*k] != 0.0).collect();
-            for (i, j) in bound.iter().flat_map(|i| bound.iter().map(move |j| (*i, *j))) {
-                gram[(i, j)] += row[i] * row[j];
-            }
+    for (direction, _, Constraint { node, masters, .. }) in
+        constraints.iter().flat_map(Constraint::equations)
+    {
+        let row = motions.in_free(&motions.relative(*node, masters, direction));
+        let bound: Vec<usize> = (0..row.len()).filter(|k| row[*k] != 0.0).collect();
+        for (i, j) in bound.iter().flat_map(|i| bound.iter().map(move |j| (*i, *j))) {
+            gram[(i, j)] += row[i] * row[j];
         }
     }
     let diagonal = gram.diagonal();

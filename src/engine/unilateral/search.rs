@@ -4,16 +4,15 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use nalgebra::DVector;
-
 use super::problem::{
-    CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateAttempt, StateSearch,
-    StateSolution, Watch, cause_first,
+    CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateSearch, StateSolution,
+    Watch, cause_first,
 };
 use super::status::{History, nearest_open, next_closed};
 use crate::contact::{ContactForce, Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
-use crate::elimination::Constraint;
+use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, Error, NoEquilibrium, too_large};
+use crate::held::Unheld;
 use crate::linear::largest;
 use crate::solution::{Cycle, Margin, NearestDecision};
 
@@ -54,25 +53,26 @@ impl Problem<'_> {
             first.get_or_insert_with(|| iteration.clone());
             watch(config, iteration);
         };
-        let mut start = setting.statuses.map(<[Status]>::to_vec);
-        let mut before: Option<(StateSolution, f64)> = None;
+        let mut before: Option<(Configuration, Iteration, f64)> = None;
         let mut history = History::default();
-        let mut last_place = None;
         for _ in 0..SHAPES {
             history.move_on();
-            let mut config = self
-                .configuration(before.as_ref().map_or(setting.before, |(solution, _)| &solution.u));
+            let (u, start) = match &before {
+                Some((_, last, _)) => (&last.solution.u, Some(&*last.statuses)),
+                None => (setting.before, setting.statuses),
+            };
+            let mut config = self.configuration(u);
             if before.is_none() {
-                gaps = self.gaps(&config, setting.before);
+                gaps = self.gaps(&config, u);
             }
             let mut last =
                 self.settle(&mut config, setting, start, &mut history, &mut keep_first)?;
             let shape_change = match &before {
                 _ if !self.is_current() => 0.0,
-                Some((solution, _)) => largest((&last.solution.u - &solution.u).as_slice()),
+                Some(_) => largest((&last.solution.u - u).as_slice()),
                 None => f64::INFINITY,
             };
-            let stalled = before.as_ref().is_some_and(|(_, old)| shape_change > old / 2.0);
+            let stalled = before.as_ref().is_some_and(|(.., old)| shape_change > old / 2.0);
             let scale = largest(last.solution.u.as_slice());
             // Distances in such a shape overflow.
             if self.is_current() && !(scale * scale).is_finite() {
@@ -83,16 +83,13 @@ impl Problem<'_> {
                 self.along_forces(&mut config, &mut last);
                 return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
             }
-            start = Some(last.statuses);
-            last_place = Some(config);
-            before = Some((last.solution, shape_change));
+            before = Some((config, last, shape_change));
         }
-        let (strained, torn) = before.map_or_else(Default::default, |(solution, _)| {
-            let next = self.configuration(&solution.u);
-            (self.strained(&solution.u), last_place.map_or(String::new(), |c| self.torn(&c, &next)))
-        });
+        let (config, last, _) = before.expect("a shape was measured in");
+        let u = &last.solution.u;
+        let why = self.strained(u) + &self.torn(&config, &self.configuration(u));
         let what = format!("the geometry updates did not converge in {SHAPES} times");
-        let what = cause_first(&(strained + &torn), what);
+        let what = cause_first(&why, what);
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
@@ -105,11 +102,11 @@ impl Problem<'_> {
         &self,
         config: &mut Configuration,
         setting: &Setting,
-        start: Option<Vec<Status>>,
+        start: Option<&[Status]>,
         history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let found = self.search(config, setting).settle(start.clone(), history, watch);
+        let found = self.search(config, setting).settle(start, history, watch);
         let in_corner = |i: &usize| config.pairings[*i].as_ref().is_some_and(|p| p.corner > 0.0);
         let corners: Vec<usize> = (0..config.pairings.len()).filter(in_corner).collect();
         let Err(Error::Equilibrium(why)) = found else { return found };
@@ -128,8 +125,7 @@ impl Problem<'_> {
                 beyond.push(off);
             }
             history.move_on();
-            let Ok(last) = self.search(&other, setting).settle(start.clone(), history, watch)
-            else {
+            let Ok(last) = self.search(&other, setting).settle(start, history, watch) else {
                 continue;
             };
             let gap = |off: &Pairing| off.gap_after(self.model, &last.solution.u);
@@ -154,7 +150,7 @@ impl Problem<'_> {
         }
         let search = self.search(&found.config, setting);
         let Iteration { statuses, constraints, cycle, .. } = found.last.clone();
-        if let StateAttempt::Solved(solution) = search.solve(&statuses, &constraints)? {
+        if let Ok((_, solution)) = search.held(&statuses, &constraints)? {
             let last = search.completed_iteration((statuses, constraints), cycle, solution);
             if search.wanted(&last, false) == last.statuses {
                 return Ok(Equilibrium { last, ..found });
@@ -205,11 +201,11 @@ impl StateSearch<'_> {
     /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
     pub(super) fn settle(
         &self,
-        start: Option<Vec<Status>>,
+        start: Option<&[Status]>,
         history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let start = start.unwrap_or_else(|| self.first_statuses());
+        let start = start.map_or_else(|| self.first_statuses(), <[Status]>::to_vec);
         let found = self.active_set(start, history, watch);
         let Err(Error::Equilibrium(why)) = found else { return found };
         let problem = self.problem;
@@ -370,14 +366,12 @@ impl StateSearch<'_> {
         }
         let (constraints, solution) = loop {
             let constraints = self.constraints(&statuses);
-            match self.solve(&statuses, &constraints)? {
-                StateAttempt::Solved(solution) => break (constraints, solution),
-                StateAttempt::Free { dof, motion } => {
-                    if !self.restrain_more(&mut statuses, motion) {
-                        return Err(self
-                            .problem
-                            .unrestrained(&self.config.pairings, &constraints, dof)
-                            .into());
+            match self.held(&statuses, &constraints)? {
+                Ok((_, solution)) => break (constraints, solution),
+                Err(Unheld { t, dof }) => {
+                    if !self.restrain_more(&mut statuses, &t) {
+                        let pairings = &self.config.pairings;
+                        return Err(self.problem.unrestrained(pairings, &constraints, dof).into());
                     }
                 }
             }
@@ -414,9 +408,10 @@ impl StateSearch<'_> {
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.
-    fn restrain_more(&self, statuses: &mut [Status], motion: Option<DVector<f64>>) -> bool {
+    fn restrain_more(&self, statuses: &mut [Status], t: &Elimination) -> bool {
         let gaps = self.problem.gaps(self.config, self.setting.before);
-        let first = motion.and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
+        let first =
+            self.motion(t).and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
         let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
         more.iter().for_each(|&i| statuses[i] = self.problem.closing(self.config, i));
         if !more.is_empty() {
@@ -429,7 +424,7 @@ impl StateSearch<'_> {
     /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
     pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
         let constraints = self.constraints(statuses);
-        let solution = self.solved_state(statuses, &constraints)?;
+        let (_, solution) = self.held(statuses, &constraints).ok()?.ok()?;
         let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted(&iteration, false);
         (wanted == iteration.statuses).then_some(iteration.solution)

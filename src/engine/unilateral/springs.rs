@@ -62,7 +62,8 @@ impl Problem<'_> {
             config = self.configuration(&u);
             let load = &setting.load + self.force_of(&springs, &u);
             let own = Setting { load, reduced: None, ..*setting };
-            let settled = springs.search(&config, &own).settle(statuses, &mut history, watch);
+            let settled =
+                springs.search(&config, &own).settle(statuses.as_deref(), &mut history, watch);
             let last = settled.map_err(|more| more.prefixed(&format!("{why}; on springs ")))?;
             let moved = &last.solution.u - &u;
             let change = largest(moved.as_slice());

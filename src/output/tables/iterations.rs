@@ -77,17 +77,17 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment, all
     let own = |row: &usize| step(row).unilateral().expect("a path is of unilateral contact");
     let first = |row: &usize| row.checked_sub(1).map_or(0, |before| last[before] + 1);
     let count = |row: &usize, is_counted: fn(&Status) -> bool| {
-        own(row).statuses.iter().filter(|status| is_counted(status)).count()
+        step(row).statuses.iter().filter(|status| is_counted(status)).count()
     };
     let error = super::error_of_mesh(assessment);
-    let statuses = |row: &usize| &own(row).statuses;
+    let statuses = |row: &usize| &step(row).statuses;
     let is_change = |row: &usize| row.checked_sub(1).is_none_or(|k| statuses(&k) != statuses(row));
     let (rows, left_out) = shortened((0..last.len()).collect(), all, is_change);
     let digits = |value: fn(&Step) -> f64| {
         let largest = rows.iter().map(|row| value(step(row)).abs()).fold(0.0, f64::max);
         Digits::of(largest, error)
     };
-    let [u, gap] = [digits(|step| step.max_displacement), digits(Step::contact_residual)];
+    let [u, gap] = [digits(|step| step.max_displacement), digits(|step| step.contact_residual)];
     let table = Table::from_rows(rows)
         .column("load", |row| own(row).load)
         .column("iterations", |row| last[*row] + 1 - first(row))
@@ -97,7 +97,7 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment, all
             Cell::of_digits(step(row).max_displacement, u)
         })
         .column(quantity("gap or overlap left", &units.length), |row| {
-            Cell::of_digits(step(row).contact_residual(), gap)
+            Cell::of_digits(step(row).contact_residual, gap)
         })
         .column(quantity("force on target", &units.force), |row| {
             Cell::of_digits(step(row).target_force, Digits::of(step(row).target_force, Some(0.0)))

@@ -280,9 +280,9 @@ impl Model {
         self.contact.target.iter().map(|id| self.edge(*id))
     }
 
-    /// Returns the length of an edge.
-    pub fn length(&self, edge: &Edge) -> f64 {
-        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| self.coordinates(node));
+    /// Returns the distance of two nodes, length.
+    pub fn length(&self, nodes: [NodeId; 2]) -> f64 {
+        let [[ax, ay], [bx, by]] = nodes.map(|node| self.coordinates(node));
         (bx - ax).hypot(by - ay)
     }
 

@@ -13,7 +13,7 @@ use super::surface::Surface;
 use crate::element::Plane;
 use crate::model::Material;
 use crate::modelling::{
-    ContactModel, Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
+    ContactModel, Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant,
 };
 
 /// The description of a mesh: a scene file, field by field. Lengths, forces and stresses may be in
@@ -119,6 +119,10 @@ fn default_thickness() -> f64 {
 /// Returns the number of iterations of a scene that sets none, which is the paper's.
 fn default_iterations() -> usize {
     20
+}
+
+fn default_load_steps() -> usize {
+    LOAD_STEPS
 }
 
 fn is_default_thickness(thickness: &f64) -> bool {
@@ -313,7 +317,7 @@ pub struct Contact {
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
     /// The number of equal steps in which `unilateral` applies the load of a stage.
-    #[serde(default = "load_steps", skip_serializing_if = "is_default_load_steps")]
+    #[serde(default = "default_load_steps", skip_serializing_if = "is_default_load_steps")]
     pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]

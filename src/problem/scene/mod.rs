@@ -264,7 +264,7 @@ impl Scene {
 /// Says that the tolerance of the contact search is longer than the edges in which it searches, as where it
 /// is in another unit.
 fn wide_tolerance(model: &Model) -> Option<String> {
-    let shortest = model.target_edges().map(|edge| model.length(edge)).reduce(f64::min)?;
+    let shortest = model.target_edges().map(|edge| model.length(edge.nodes)).reduce(f64::min)?;
     let tolerance = model.contact.tolerance;
     (tolerance > shortest).then(|| {
         format!(

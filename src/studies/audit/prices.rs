@@ -301,8 +301,7 @@ impl<'c> Known<'c> {
             Status::Slip(Sense::Forward | Sense::Backward) => true,
             Status::Open | Status::Stick => false,
         };
-        let mut states = equilibrium.steps.iter().filter_map(|step| step.unilateral());
-        states.any(|state| state.statuses.iter().any(slips))
+        equilibrium.steps.iter().any(|step| step.statuses.iter().any(slips))
     }
 
     /// The largest displacement of a run that has a result: a body that nothing holds moves farther.

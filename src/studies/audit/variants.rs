@@ -201,7 +201,7 @@ fn end(case: &Case, variant: Variant) -> Outcome<VariantRun> {
         contact_set: last.contact_set(model),
         target_share: target_share(solution),
         transmits_nothing: solution.transmits_nothing(),
-        eq1_residual: last.contact_residual(),
+        eq1_residual: last.contact_residual,
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
         distance: case.from_equilibrium(solution),

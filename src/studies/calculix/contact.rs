@@ -111,7 +111,10 @@ impl Pair {
             let moduli = model.triangles.iter().map(|triangle| triangle.material.e);
             let mean_edge = match model.contact.target.len() {
                 0 => 1.0,
-                n => model.target_edges().map(|edge| model.length(edge)).sum::<f64>() / n as f64,
+                n => {
+                    model.target_edges().map(|edge| model.length(edge.nodes)).sum::<f64>()
+                        / n as f64
+                }
             };
             Self::STIFFNESS * moduli.fold(0.0, f64::max) / mean_edge
         };

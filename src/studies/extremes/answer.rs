@@ -42,7 +42,7 @@ pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Ke
     let is_unilateral = variant == Variant::Unilateral;
     let known = if is_unilateral { Variant::Tied } else { variant };
     Ok(match Error::found(solve(&scene, known, ScalarName::Exact))? {
-        Some(exact) if answer.last().statuses() == exact.last().statuses() => {
+        Some(exact) if answer.last().closed().eq(exact.last().closed()) => {
             let (found, known) = (answer.exact_displacements(), exact.exact_displacements());
             let errors = exact.model.bodies.iter().map(|body| error(body, &found, &known));
             Kept::of_error(errors.fold(0.0, f64::max))

@@ -275,9 +275,9 @@ impl Pairs {
         let mut pairs = Pairs::default();
         match &step.detail {
             Detail::Published(own) => {
-                pairs.ct.extend_from_slice(own.pairs.ct.as_slice());
-                pairs.yt.extend_from_slice(own.pairs.yt.as_slice());
-                for (node, row) in &own.pairs.masters {
+                pairs.ct.extend_from_slice(own.ct.as_slice());
+                pairs.yt.extend_from_slice(own.yt.as_slice());
+                for (node, row) in &own.masters {
                     pairs.mates.push(format!("{node}: {} {}", row[0], row[2]));
                     pairs.weights.extend([row[1], row[3]]);
                 }
@@ -314,7 +314,7 @@ impl Recorded<'_> {
         let pairs = Pairs::new(step, self.model);
         run.fact_is(of(Quantity::Ct), pairs.ct);
         run.numbers_are(of(Quantity::Yt), Numbers::list(length, pairs.yt));
-        let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
+        let dy: Vec<u8> = step.closed().map(u8::from).collect();
         run.fact_is(of(Quantity::Dy), dy);
         run.fact_is(of(Quantity::InContact), step.contact_set(self.model));
         run.fact_is(of(Quantity::Mates), pairs.mates);
@@ -335,7 +335,7 @@ impl Recorded<'_> {
             run.numbers_are(of(Quantity::Load), Numbers::list("", [own.load]));
             run.fact_is(
                 of(Quantity::Statuses),
-                own.statuses.iter().map(recorded).collect::<Vec<_>>(),
+                step.statuses.iter().map(recorded).collect::<Vec<_>>(),
             );
         }
     }
@@ -348,7 +348,7 @@ impl Recorded<'_> {
             (Detail::Published(own), Variant::Printed) => {
                 (model.nodes.len() <= DENSE).then_some(())?;
                 let sheet = door::worksheet(model, |x| x);
-                let matrix = Km(&sheet, &request.reading, &own.pairs.k_cnt()).ok()?;
+                let matrix = Km(&sheet, &request.reading, &own.k_cnt()).ok()?;
                 let matrix = matrix.into_sparse().dense();
                 let places = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j)));
                 let lower = places.map(|(i, j)| (i, j, matrix[(i, j)]));

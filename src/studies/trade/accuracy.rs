@@ -12,7 +12,7 @@ use base::error::InputError;
 use engine::error::Result;
 use engine::estimates::discretisation::Discretisation;
 use engine::linear::{Arithmetic, ScalarName, Solver};
-use engine::{Request, Solution, Step, max_displacement, over, solve};
+use engine::{Request, Solution, max_displacement, over, solve};
 use numbers::scalar::{F64x2, Scalar};
 use output::layout::first_line;
 use problem::modelling::Variant;
@@ -180,7 +180,7 @@ fn away(solution: &Solution, finer: &Solution) -> f64 {
 
 /// Returns whether two runs find the same nodes in contact in each iteration.
 fn same_contact(one: &Solution, other: &Solution) -> bool {
-    one.steps.iter().map(Step::statuses).eq(other.steps.iter().map(Step::statuses))
+    one.steps.iter().map(|step| &step.statuses).eq(other.steps.iter().map(|step| &step.statuses))
 }
 
 fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {

@@ -140,7 +140,7 @@ pub(super) fn cycle(case: &Case) -> Outcome<Evidence> {
     let counts = cycle.members.iter().map(|k| steps[k - 1].in_contact);
     let how = if cycle.length == 1 { "settles" } else { "alternates" };
     let detail = format!("the contact state {how} with {} nodes in contact", listed(counts));
-    let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
+    let entered = steps.iter().any(|step| step.statuses != steps[0].statuses);
     let verdict = match cycle.length {
         1 if entered => Presence::Contradicted,
         1 => Presence::NotTriggered,
@@ -157,7 +157,7 @@ pub(super) fn pulls(case: &Case) -> Outcome<Evidence> {
     let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
     let rounding = ROUNDING * force.amax();
     let statuses = match &solution.last().detail {
-        Detail::Published(step) => door::statuses(&solution.model, &step.pairs.whole()),
+        Detail::Published(step) => door::statuses(&solution.model, &step.whole()),
         Detail::Unilateral(_) => Vec::new(),
     };
     let push = |i: usize| {
