@@ -1,7 +1,6 @@
 //! `plane-contact lesson`.
 
-use std::iter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::audit::Case;
@@ -9,7 +8,7 @@ use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Price};
 use crate::lesson::language::Language;
 use crate::lesson::page::{self as page, Chapter, Measured};
-use crate::lesson::{self as study, Repairs, Switch, reference, switches};
+use crate::lesson::{self as study, MOST_SOLVED, Repairs, Switch, reference, switches};
 use base::files::{self, HTML};
 use base::plain::shown;
 use engine::error::Result;
@@ -62,7 +61,8 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 fn lesson(args: &Args) -> Result<String> {
-    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("fig1")))?;
+    let path = args.scene.as_deref().unwrap_or(FIG1.as_ref());
+    let (scene, is_fig1) = (Scene::open(path)?, path == FIG1);
     check_restraints(&scene.model)?;
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
@@ -78,30 +78,45 @@ fn lesson(args: &Args) -> Result<String> {
         // A reading that does not allow the model has no run (R6).
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
-        let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        let fig1 = Scene::open("fig1")?;
-        let others = [fig1.clone(), lowered(fig1)].map(|scene| {
-            let name = scene.name.clone();
-            (name, prices(&Case::new(scene), FAULTS.iter().collect()))
-        });
+        let fig1 = Priced::new(Scene::open(FIG1)?);
+        let others = [&fig1, &Priced::new(lowered(fig1.case.scene.clone()))];
+        let is_iterated = scene.model.nodes.len() <= MOST_SOLVED;
+        let other = (!is_fig1 && is_iterated).then(|| Priced::new(scene.clone()));
+        let priced = if is_fig1 { Some(&fig1) } else { other.as_ref() };
+        let chapters = [Ok(own), repairs(priced, &fig1, args.nodes.clone())].into_iter();
         let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
 }
 
+/// The scene whose way to the right answer stands in for that of a scene that has none.
+const FIG1: &str = "fig1";
+
+/// A case, and what its faults cost one at a time, behind what no fault does; nothing where the corrected algorithm
+/// itself has no result.
+struct Priced {
+    case: Case,
+    prices: Vec<Price>,
+}
+
+impl Priced {
+    fn new(scene: Scene) -> Self {
+        let case = Case::new(scene);
+        let prices = prices::on(&case, &|| ()).unwrap_or_default();
+        Priced { case, prices }
+    }
+}
+
 /// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such
 /// way.
-fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
-    let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
-    let (scene, nodes, (repairs, u)) = match found {
+fn repairs(own: Option<&Priced>, fig1: &Priced, nodes: Vec<usize>) -> Result<Chapter> {
+    let of = |priced: &Priced| Repairs::new(&priced.case, &priced.prices);
+    let (priced, nodes, (repairs, u)) = match own.and_then(|own| Some((own, nodes, of(own)?))) {
         Some(found) => found,
-        None => {
-            let fig1 = Scene::open("fig1")?;
-            let found = Repairs::new(&fig1).expect("the corrected algorithm solves fig. 1");
-            (fig1, vec![], found)
-        }
+        None => (fig1, vec![], of(fig1).expect("the corrected algorithm solves fig. 1")),
     };
+    let scene = priced.case.scene.clone();
     let printed = Switch::as_printed();
     let model = printed.model(&scene)?;
     let runs = vec![(printed, model)];
@@ -119,31 +134,28 @@ fn lowered(mut scene: Scene) -> Scene {
     scene
 }
 
-/// The faults that have a price on a scene, with that.
-type Prices = Vec<(&'static Fault, Price)>;
-
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
 /// other scenes, by name.
-fn chapter(finding: &'static Finding, others: &[(String, Prices)]) -> Result<Chapter> {
+fn chapter(finding: &'static Finding, others: &[&Priced]) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
     let evidence = finding.measure(&case);
-    let faults = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
-    let own = (case.scene.name.clone(), prices(&case, faults));
-    let all = iter::once(&own).chain(others).flat_map(|(name, prices)| {
-        let prices = prices.iter().filter(|(fault, _)| fault.is_of(finding.id));
-        prices.map(|(_, price)| (name.clone(), price.clone()))
-    });
-    let measured = Measured { finding, evidence, prices: all.collect() };
+    let faults: Vec<&Fault> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    let own = match faults.is_empty() {
+        true => vec![],
+        false => prices::of_faults(&case, &faults, &|| ()).unwrap_or_default(),
+    };
+    let named = |case: &Case, price: &Price| (case.scene.name.clone(), price.clone());
+    let on_other = |other: &&Priced| {
+        let prices = FAULTS.iter().zip(other.prices.iter().skip(1));
+        let own = prices.filter(|(fault, _)| fault.is_of(finding.id));
+        own.map(|(_, price)| named(&other.case, price)).collect::<Vec<_>>()
+    };
+    let own = own.iter().skip(1).map(|price| named(&case, price));
+    let prices = own.chain(others.iter().flat_map(on_other)).collect();
+    let measured = Measured { finding, evidence, prices };
     Ok(opened(case.scene, runs, vec![], Some(measured)))
-}
-
-/// Returns what faults cost on a scene; nothing where the corrected algorithm itself has no result that is sure.
-fn prices(case: &Case, faults: Vec<&'static Fault>) -> Prices {
-    let prices = prices::of_faults(case, &faults, &|| ()).unwrap_or_default();
-    // The first price is that of no fault.
-    faults.into_iter().zip(prices.into_iter().skip(1)).collect()
 }
 
 /// Returns a chapter with its reference solution, on the model of its first run.
