@@ -267,7 +267,12 @@ impl Once {
     /// what iterations change.
     fn value(&self, edits: &[&str], sheet: &Sheet) -> Option<Value> {
         let alone = edited(self.program, &[&[self.alone], edits].concat())?;
-        Some(alone.runner_in(sheet, &Settings::default(), &limits()).call(&[]).ok()?.value)
+        let mut runner = alone.runner_in(sheet, &Settings::default(), &limits());
+        let mut value = runner.call(&[]).ok()?.value;
+        if let Value::Array(array) = &mut value {
+            Rc::make_mut(array).share_zeros();
+        }
+        Some(value)
     }
 
     /// Returns the program with the value in place of the lines; None where it reads what else they compute.

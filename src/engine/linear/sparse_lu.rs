@@ -1,13 +1,12 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use super::rounding;
-use faer::sparse::linalg::solvers;
 use nalgebra::DVector;
-use numbers::sparse_lu::factored;
+use numbers::sparse_lu;
 use numbers::square::SparseSquare;
 
 use super::dense::DenseLu;
-use super::factors::{Factors, Singular, solve};
+use super::factors::{Factors, Singular};
 use super::sparse::{largest_motion, mechanism};
 use super::symmetric::SparseSymmetric;
 
@@ -19,7 +18,7 @@ const DOUBTFUL: f64 = 1e-3;
 const LARGEST_DENSE: usize = 3000;
 
 /// The sparse LU factors of a matrix.
-pub struct SparseLu(solvers::Lu<usize, f64>);
+pub struct SparseLu(sparse_lu::Factors);
 
 impl SparseLu {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
@@ -28,7 +27,7 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let Some(factors) = factored(matrix) else {
+        let Some(factors) = sparse_lu::factored(matrix) else {
             // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
             let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
             return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));
@@ -46,7 +45,7 @@ impl SparseLu {
 
 impl Factors for SparseLu {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        solve(&self.0, b)
+        self.0.solve(b.as_slice().to_vec()).into()
     }
 }
 
