@@ -70,8 +70,8 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     }
     #[cfg(feature = "sparse")]
     if n > DENSE {
-        let factors = numbers::sparse_lu::factored(&a.sparse()).ok_or(Cause::Singular)?;
-        let x = factors.solve(numbers(b)).into_iter().map(finite).collect::<Result<Vec<_>, _>>()?;
+        let x = numbers::sparse_lu::solved(&a.sparse(), numbers(b)).ok_or(Cause::Singular)?;
+        let x = x.into_iter().map(finite).collect::<Result<Vec<_>, _>>()?;
         return Ok(Array::column(x).into());
     }
     substituted(&factor(a), &numbers(b)).map(|x| Array::column(x).into())

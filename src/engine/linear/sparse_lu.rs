@@ -1,12 +1,14 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use super::rounding;
+use faer::Par;
+use faer::sparse::linalg::solvers;
 use nalgebra::DVector;
-use numbers::sparse_lu;
+use numbers::sparse_lu::columns;
 use numbers::square::SparseSquare;
 
 use super::dense::DenseLu;
-use super::factors::{Factors, Singular};
+use super::factors::{Factors, Singular, solve};
 use super::sparse::{largest_motion, mechanism};
 use super::symmetric::SparseSymmetric;
 
@@ -18,7 +20,7 @@ const DOUBTFUL: f64 = 1e-3;
 const LARGEST_DENSE: usize = 3000;
 
 /// The sparse LU factors of a matrix.
-pub struct SparseLu(sparse_lu::Factors);
+pub struct SparseLu(solvers::Lu<usize, f64>);
 
 impl SparseLu {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
@@ -27,7 +29,12 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let Some(factors) = sparse_lu::factored(matrix) else {
+        let columns = columns(matrix);
+        faer::set_global_parallelism(Par::Seq);
+        let symbolic =
+            solvers::SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
+        let factors = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref());
+        let Ok(factors) = factors else {
             // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
             let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
             return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));
@@ -45,7 +52,7 @@ impl SparseLu {
 
 impl Factors for SparseLu {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        self.0.solve(b.as_slice().to_vec()).into()
+        solve(&self.0, b)
     }
 }
 
