@@ -22,25 +22,15 @@ pub fn solved(matrix: &SparseSquare, mut b: Vec<f64>) -> Option<Vec<f64>> {
     order.sort_by_key(|j| matrix[(*j, *j)] == 0.0);
     let place = places(&order);
     let columns = PermRef::new_checked(&order, &place, n);
-    let (mut factors, mut order, mut place) = (SimplicialLu::new(), vec![0; n], vec![0; n]);
-    let scratch = factorize_simplicial_numeric_lu_scratch::<usize, f64>(n, n);
-    let scratch = scratch.or(solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq));
-    let mut memory = MemBuffer::new(scratch);
-    let stack = MemStack::new(&mut memory);
-    factorize_simplicial_numeric_lu(
-        &mut order,
-        &mut place,
-        &mut factors,
-        a.as_ref(),
-        columns,
-        stack,
-    )
-    .ok()?;
-    let (rows, x) = (
-        PermRef::new_checked(&order, &place, n),
-        MatMut::from_column_major_slice_mut(&mut b, n, 1),
-    );
-    factors.solve_in_place_with_conj(rows, columns, Conj::No, x, Par::Seq, stack);
+    let (mut lu, mut row, mut row_place) = (SimplicialLu::new(), vec![0; n], vec![0; n]);
+    let factoring = factorize_simplicial_numeric_lu_scratch::<usize, f64>(n, n);
+    let solving = solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
+    let mut memory = MemBuffer::new(factoring.or(solving));
+    let (a, stack) = (a.as_ref(), MemStack::new(&mut memory));
+    factorize_simplicial_numeric_lu(&mut row, &mut row_place, &mut lu, a, columns, stack).ok()?;
+    let rows = PermRef::new_checked(&row, &row_place, n);
+    let x = MatMut::from_column_major_slice_mut(&mut b, n, 1);
+    lu.solve_in_place_with_conj(rows, columns, Conj::No, x, Par::Seq, stack);
     Some(b)
 }
 

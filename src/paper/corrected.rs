@@ -302,15 +302,7 @@ impl<'m> Worksheet<'m> {
         sheet.define("both", bound.both());
         let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
         sheet.define_program(Rc::new(d));
-        sheet.define_program(Rc::new(Program::Normals.listing()));
-        for once in ONCE {
-            if let Some(value) = once.value(&[], &sheet) {
-                sheet.define(once.name, value);
-            }
-        }
-        for program in Program::ALL {
-            define(*program, &[], false, &mut sheet);
-        }
+        Program::ALL.iter().for_each(|program| define(*program, &[], true, &mut sheet));
         Worksheet { model, sheet }
     }
 

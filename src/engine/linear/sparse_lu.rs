@@ -29,12 +29,8 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let columns = columns(matrix);
         faer::set_global_parallelism(Par::Seq);
-        let symbolic =
-            solvers::SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
-        let factors = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref());
-        let Ok(factors) = factors else {
+        let Ok(factors) = columns(matrix).sp_lu() else {
             // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
             let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
             return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));

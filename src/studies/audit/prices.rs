@@ -313,7 +313,8 @@ impl<'c> Known<'c> {
     /// Runs the corrected algorithm with faults reintroduced.
     fn run(&self, worksheet: &Worksheet, edits: &[&str]) -> Outcome<CorrectedRun> {
         let ending = worksheet.iterate(edits, STEPS).map_err(|why| why.to_string())?;
-        if !ending.u.iter().all(|x| x.abs() <= self.farthest()) {
+        let farthest = self.farthest();
+        if !ending.u.iter().all(|x| x.abs() <= farthest) {
             return Err("a body is free to move: it moves by more than the size of the model, and a thousand \
                         times the solution"
                 .into());

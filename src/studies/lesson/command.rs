@@ -1,5 +1,6 @@
 //! `plane-contact lesson`.
 
+use std::iter;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -15,6 +16,7 @@ use engine::error::Result;
 use paper::corrected::{FAULTS, Fault};
 use paper::door::check_restraints;
 use paper::edited::Edited;
+use paper::findings::FindingId;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -78,12 +80,13 @@ fn lesson(args: &Args) -> Result<String> {
         // A reading that does not allow the model has no run (R6).
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
-        let fig1 = Priced::new(Scene::open(FIG1)?);
-        let others = [&fig1, &Priced::new(lowered(fig1.case.scene.clone()))];
+        let priced = |scene: &Scene| Priced::new(scene.clone(), FAULTS.iter().collect());
+        let fig1 = Scene::open(FIG1)?;
+        let others = [priced(&fig1), priced(&lowered(fig1))];
         let is_iterated = scene.model.nodes.len() <= MOST_SOLVED;
-        let other = (!is_fig1 && is_iterated).then(|| Priced::new(scene.clone()));
-        let priced = if is_fig1 { Some(&fig1) } else { other.as_ref() };
-        let chapters = [Ok(own), repairs(priced, &fig1, args.nodes.clone())].into_iter();
+        let other = (!is_fig1 && is_iterated).then(|| priced(&scene));
+        let way = if is_fig1 { Some(&others[0]) } else { other.as_ref() };
+        let chapters = [Ok(own), repairs(way, &others[0], args.nodes.clone())].into_iter();
         let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;
@@ -93,18 +96,26 @@ fn lesson(args: &Args) -> Result<String> {
 /// The scene whose way to the right answer stands in for that of a scene that has none.
 const FIG1: &str = "fig1";
 
-/// A case, and what its faults cost one at a time, behind what no fault does; nothing where the corrected algorithm
+/// A case, and what faults cost on it one at a time, behind what no fault does; nothing where the corrected algorithm
 /// itself has no result.
 struct Priced {
     case: Case,
+    faults: Vec<&'static Fault>,
     prices: Vec<Price>,
 }
 
 impl Priced {
-    fn new(scene: Scene) -> Self {
+    fn new(scene: Scene, faults: Vec<&'static Fault>) -> Self {
         let case = Case::new(scene);
-        let prices = prices::on(&case, &|| ()).unwrap_or_default();
-        Priced { case, prices }
+        let prices = (!faults.is_empty()).then(|| prices::of_faults(&case, &faults, &|| ()).ok());
+        Priced { case, faults, prices: prices.flatten().unwrap_or_default() }
+    }
+
+    /// Returns the prices of a finding's faults, each with the name of the scene.
+    fn of(&self, finding: FindingId) -> impl Iterator<Item = (String, Price)> {
+        let prices = self.faults.iter().zip(self.prices.iter().skip(1));
+        let own = prices.filter(move |(fault, _)| fault.is_of(finding));
+        own.map(|(_, price)| (self.case.scene.name.clone(), price.clone()))
     }
 }
 
@@ -136,26 +147,16 @@ fn lowered(mut scene: Scene) -> Scene {
 
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
 /// other scenes, by name.
-fn chapter(finding: &'static Finding, others: &[&Priced]) -> Result<Chapter> {
-    let case = Case::new(finding.scene());
+fn chapter(finding: &'static Finding, others: &[Priced]) -> Result<Chapter> {
+    let faults = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    let own = Priced::new(finding.scene(), faults);
+    let case = &own.case;
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
-    let evidence = finding.measure(&case);
-    let faults: Vec<&Fault> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
-    let own = match faults.is_empty() {
-        true => vec![],
-        false => prices::of_faults(&case, &faults, &|| ()).unwrap_or_default(),
-    };
-    let named = |case: &Case, price: &Price| (case.scene.name.clone(), price.clone());
-    let on_other = |other: &&Priced| {
-        let prices = FAULTS.iter().zip(other.prices.iter().skip(1));
-        let own = prices.filter(|(fault, _)| fault.is_of(finding.id));
-        own.map(|(_, price)| named(&other.case, price)).collect::<Vec<_>>()
-    };
-    let own = own.iter().skip(1).map(|price| named(&case, price));
-    let prices = own.chain(others.iter().flat_map(on_other)).collect();
+    let evidence = finding.measure(case);
+    let prices = iter::once(&own).chain(others).flat_map(|priced| priced.of(finding.id)).collect();
     let measured = Measured { finding, evidence, prices };
-    Ok(opened(case.scene, runs, vec![], Some(measured)))
+    Ok(opened(own.case.scene, runs, vec![], Some(measured)))
 }
 
 /// Returns a chapter with its reference solution, on the model of its first run.
