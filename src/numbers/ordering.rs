@@ -1,11 +1,11 @@
-//! The order of the equations of a sparse symmetric matrix in which its factors fill little, by the library
+//! The order of the equations of a sparse matrix, symmetric or nearly, in which its factors fill little, by the library
 //! faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-/// Returns the equations in an order of small fill (approximate minimum degree), from the lower triangle of
+/// Returns the equations in an order of small fill (approximate minimum degree), from all or the lower triangle of
 /// the matrix.
 pub fn order(pattern: SymbolicSparseColMatRef<'_, usize>) -> Vec<usize> {
     let n = pattern.ncols();
