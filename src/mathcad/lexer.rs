@@ -79,12 +79,9 @@ fn printed(typed: &'static str) -> &'static str {
 /// Returns the longest sign at the start of a text. None starts with a letter of ASCII or a digit: half of the
 /// time of reading a listing went into looking for one there.
 fn sign(text: &str) -> Option<&'static str> {
-    if text.starts_with(|c: char| c.is_ascii_alphanumeric()) {
-        return None;
-    }
+    let first = text.bytes().next().filter(|byte| !byte.is_ascii_alphanumeric())?;
     let operators = OPERATORS.iter().flat_map(|row| [row.sign, row.typed]);
-    let signs =
-        operators.chain(SIGNS).filter(|sign| !sign.starts_with(|c: char| c.is_ascii_alphabetic()));
+    let signs = operators.chain(SIGNS).filter(|sign| sign.as_bytes()[0] == first);
     signs.filter(|sign| text.starts_with(sign)).max_by_key(|sign| sign.len())
 }
 

@@ -70,7 +70,7 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     }
     #[cfg(feature = "sparse")]
     if n > DENSE {
-        let x = numbers::sparse_lu::solved(&a.sparse(), &numbers(b)).ok_or(Cause::Singular)?;
+        let x = numbers::sparse_lu::solved(&a.sparse(), numbers(b)).ok_or(Cause::Singular)?;
         let x = x.into_iter().map(finite).collect::<Result<Vec<_>, _>>()?;
         return Ok(Array::column(x).into());
     }

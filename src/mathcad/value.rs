@@ -149,13 +149,31 @@ impl Array {
         const AT_ONCE: usize = 16;
         assert_eq!(self.rows(), self.cols(), "a square array");
         let mut matrix = SparseSquare::zeros(self.rows());
-        let parts = self.blocks.iter().flat_map(|block| block.chunks(AT_ONCE)).enumerate();
-        let parts = parts.filter(|(_, part)| part.iter().fold(false, |any, x| any | (*x != 0.0)));
-        let entries = parts.flat_map(|(k, part)| (k * AT_ONCE..).zip(part.iter().copied()));
+        // The block that was zeros last: where one is shared, it is read once.
+        let mut zeros: Option<&Rc<Vec<f64>>> = None;
+        let is_filled = |part: &[f64]| part.iter().fold(false, |any, x| any | (*x != 0.0));
+        let filled = self.blocks.iter().enumerate().filter(|(_, block)| {
+            let is_read = !zeros.is_some_and(|zeros| Rc::ptr_eq(zeros, block)) && is_filled(block);
+            zeros = if is_read { zeros } else { Some(block) };
+            is_read
+        });
+        let parts =
+            filled.flat_map(|(k, block)| (k * BLOCK..).step_by(AT_ONCE).zip(block.chunks(AT_ONCE)));
+        let parts = parts.filter(|(_, part)| is_filled(part));
+        let entries = parts.flat_map(|(k, part)| (k..).zip(part.iter().copied()));
         for (k, value) in entries.filter(|(_, x)| *x != 0.0) {
             matrix[(k / self.cols, k % self.cols)] = value;
         }
         matrix
+    }
+
+    /// Lets all blocks of zeros be one, which is read once for all: of the 10,621 of the matrix of `audit strand` 6,049 are.
+    pub fn share_zeros(&mut self) {
+        let is_zero = |block: &&mut Rc<Vec<f64>>| {
+            block.len() == BLOCK && block.iter().all(|x| x.to_bits() == 0)
+        };
+        let zeros = Rc::new(vec![0.0; BLOCK]);
+        self.blocks.iter_mut().filter(is_zero).for_each(|block| *block = Rc::clone(&zeros));
     }
 }
 

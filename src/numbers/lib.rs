@@ -4,6 +4,8 @@
 
 pub mod joined;
 pub mod largest;
+#[cfg(feature = "sparse")]
+pub mod ordering;
 pub mod scalar;
 #[cfg(feature = "sparse")]
 pub mod sparse_lu;

@@ -267,7 +267,12 @@ impl Once {
     /// what iterations change.
     fn value(&self, edits: &[&str], sheet: &Sheet) -> Option<Value> {
         let alone = edited(self.program, &[&[self.alone], edits].concat())?;
-        Some(alone.runner_in(sheet, &Settings::default(), &limits()).call(&[]).ok()?.value)
+        let mut runner = alone.runner_in(sheet, &Settings::default(), &limits());
+        let mut value = runner.call(&[]).ok()?.value;
+        if let Value::Array(array) = &mut value {
+            Rc::make_mut(array).share_zeros();
+        }
+        Some(value)
     }
 
     /// Returns the program with the value in place of the lines; None where it reads what else they compute.
@@ -297,12 +302,7 @@ impl<'m> Worksheet<'m> {
         sheet.define("both", bound.both());
         let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
         sheet.define_program(Rc::new(d));
-        sheet.define_program(Rc::new(Program::Normals.listing()));
-        for once in ONCE {
-            if let Some(value) = once.value(&[], &sheet) {
-                sheet.define(once.name, value);
-            }
-        }
+        Program::ALL.iter().for_each(|program| define(*program, &[], true, &mut sheet));
         Worksheet { model, sheet }
     }
 
@@ -315,20 +315,21 @@ impl<'m> Worksheet<'m> {
     /// A program fails: the matrix is singular where contact and restraints leave a body free to move.
     pub fn iterate(&self, edits: &[&str], steps: usize) -> Result<Ending, Box<Failure>> {
         let mut sheet = self.sheet.clone();
-        let are_turned = lines(Program::Normals, edits) != lines(Program::Normals, &[]);
-        for other in Program::ALL.iter().filter(|other| **other != Program::Iterate) {
-            let listing = shortened(*other, edits, are_turned, &mut sheet);
-            sheet.define_program(Rc::new(listing));
+        let is_edited = |program: &&Program| lines(**program, edits) != lines(**program, &[]);
+        let are_turned = is_edited(&&Program::Normals);
+        // Reading all five for each run took half of the CPU time of `lesson`.
+        for program in Program::ALL.iter().filter(|own| are_turned || is_edited(own)) {
+            define(*program, edits, are_turned, &mut sheet);
         }
-        let main = shortened(Program::Iterate, edits, are_turned, &mut sheet);
-        ending(self.model, &sheet, &main, steps)
+        let main = sheet.program(Program::Iterate.name()).expect("it is defined");
+        ending(self.model, &sheet, main, steps)
     }
 }
 
-/// Returns a program with what concerns it of the edits, in which values stand in place of what is computed once; those
+/// Defines a program with what concerns it of the edits, in which values stand in place of what is computed once; those
 /// that edits change, or that read normals which edits change, are computed anew, by the programs that the worksheet
 /// has.
-fn shortened(own: Program, edits: &[&str], are_turned: bool, sheet: &mut Sheet) -> Listing {
+fn define(own: Program, edits: &[&str], are_turned: bool, sheet: &mut Sheet) {
     let mut listing = program(own, edits);
     for once in ONCE.iter().filter(|once| once.program == own) {
         let printed = lines(own, &[]).expect("nothing is edited");
@@ -339,7 +340,7 @@ fn shortened(own: Program, edits: &[&str], are_turned: bool, sheet: &mut Sheet) 
         let shorter = once.program(edits, &listing).filter(|_| sheet.has(once.name));
         listing = shorter.unwrap_or(listing);
     }
-    listing
+    sheet.define_program(Rc::new(listing));
 }
 
 fn limits() -> Limits {

@@ -15,6 +15,7 @@ use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Geometry, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
+use plane_contact::studies::audit::{Case, prices};
 use plane_contact::studies::lesson::page as lesson;
 use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
@@ -188,7 +189,9 @@ fn the_page_s_iterations_are_the_engine_s_repair_by_repair() {
     }
     for (name, needed) in [("fig1", 7), ("two-blocks", 2)] {
         let scene = Scene::open(name).unwrap();
-        let (repairs, _) = Repairs::new(&scene).expect("the repairs lead to the solution");
+        let case = Case::new(scene.clone());
+        let alone = prices::on(&case, &|| ()).unwrap();
+        let (repairs, _) = Repairs::new(&case, &alone).expect("the repairs lead to the solution");
         assert_eq!(repairs.needed, needed);
         let left = |k: usize| repairs.left(k).map(|fault| fault.edit).collect();
         let edits: Vec<Vec<&str>> = repairs.shown().map(left).collect();

@@ -14,6 +14,7 @@ use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::scene::{Scene, sha256_of};
+use plane_contact::studies::audit::{Case, prices};
 use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -159,7 +160,9 @@ fn accessed(named: &Named) -> Value {
 /// The lines of the corrected listings on fig. 1 with the faults that are left after each repair that the lesson shows.
 fn repaired_listings() -> Value {
     let scene = Scene::open("fig1").expect("an embedded scene");
-    let (repairs, _) = Repairs::new(&scene).expect("the repairs lead to the solution");
+    let case = Case::new(scene);
+    let alone = prices::on(&case, &|| ()).expect("fig. 1 has a solution");
+    let (repairs, _) = Repairs::new(&case, &alone).expect("the repairs lead to the solution");
     let lines = |own: corrected::Program, edits: &[&str]| -> Vec<String> {
         program(own, edits).lines().iter().map(|line| line.text.clone()).collect()
     };

@@ -12,9 +12,9 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Par, Side};
 use nalgebra::{DMatrix, DVector};
+use numbers::ordering::{order, places};
 
 use super::factors::of_columns_mut;
-use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a

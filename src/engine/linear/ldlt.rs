@@ -3,12 +3,12 @@
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31(4),
 //! 2005 (up-looking, by the elimination tree, which tells where rows have entries: J. W. H. Liu, *The role of
 //! elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11(1), 1990); the order of the
-//! equations is that of `ordering`.
+//! equations is that of `numbers::ordering`.
 
 use super::factors::Singular;
 use super::is_lost;
-use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
+use numbers::ordering::{order, places};
 use numbers::scalar::Field;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.

@@ -6,7 +6,7 @@
 //! | `factors` | what factorisations share |
 //! | `dense` | faer's factors of dense matrices |
 //! | `inverse_norm` | the norm of an inverse |
-//! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations; faer's factor of one |
+//! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
 //! | [`cost`] | the time that exact numbers take |
 //! | `sparse`, `schur` | factors that tell a singular matrix; what is left of one on its last equations |
 //! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |
@@ -21,7 +21,6 @@ mod elimination;
 mod factors;
 mod inverse_norm;
 mod ldlt;
-mod ordering;
 mod precision;
 mod schur;
 mod sparse;

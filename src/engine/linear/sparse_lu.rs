@@ -1,9 +1,10 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use super::rounding;
+use faer::Par;
 use faer::sparse::linalg::solvers;
 use nalgebra::DVector;
-use numbers::sparse_lu::factored;
+use numbers::sparse_lu::columns;
 use numbers::square::SparseSquare;
 
 use super::dense::DenseLu;
@@ -28,7 +29,8 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let Some(factors) = factored(matrix) else {
+        faer::set_global_parallelism(Par::Seq);
+        let Ok(factors) = columns(matrix).sp_lu() else {
             // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
             let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
             return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));

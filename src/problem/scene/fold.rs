@@ -67,6 +67,7 @@ struct Boxed {
     /// One of its nodes.
     node: NodeId,
     corners: Corners<f64>,
+    longest_side: f64,
     low: [f64; 2],
     high: [f64; 2],
 }
@@ -78,7 +79,9 @@ fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
         let corners @ [a, b, c] = model.corners(id);
         let node = model.triangles[id.index()].nodes[0];
         let bound = |by: fn(f64, f64) -> f64| [0, 1].map(|k| by(by(a[k], b[k]), c[k]));
-        Boxed { id, node, corners, low: bound(f64::min), high: bound(f64::max) }
+        let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+        let longest_side = length(a, b).max(length(b, c)).max(length(c, a));
+        Boxed { id, node, corners, longest_side, low: bound(f64::min), high: bound(f64::max) }
     };
     let mut triangles: Vec<Boxed> = TriangleId::all(model.triangles.len()).map(boxed).collect();
     // A line sweeps the bodies along the axis on which it crosses fewer triangles at a time.
@@ -106,14 +109,8 @@ fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
 impl Boxed {
     fn overlaps(&self, other: &Boxed) -> bool {
         let meets = |k: usize| self.low[k] < other.high[k] && other.low[k] < self.high[k];
-        let depth = DEPTH * self.longest_side().max(other.longest_side());
+        let depth = DEPTH * self.longest_side.max(other.longest_side);
         meets(0) && meets(1) && !self.is_apart(other, depth) && !other.is_apart(self, depth)
-    }
-
-    fn longest_side(&self) -> f64 {
-        let [a, b, c] = self.corners;
-        let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
-        length(a, b).max(length(b, c)).max(length(c, a))
     }
 
     /// Returns whether the other triangle lies beyond one of this one's sides, but for `depth`.
@@ -121,8 +118,8 @@ impl Boxed {
         let [a, b, c] = self.corners;
         [[a, b], [b, c], [c, a]].into_iter().any(|[from, to]| {
             let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-            let inside =
-                |p: &[f64; 2]| (dx * (p[1] - from[1]) - dy * (p[0] - from[0])) / dx.hypot(dy);
+            let length = dx.hypot(dy);
+            let inside = |p: &[f64; 2]| (dx * (p[1] - from[1]) - dy * (p[0] - from[0])) / length;
             other.corners.iter().all(|p| inside(p) <= depth)
         })
     }

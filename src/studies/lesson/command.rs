@@ -1,7 +1,7 @@
 //! `plane-contact lesson`.
 
 use std::iter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::audit::Case;
@@ -9,13 +9,14 @@ use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Price};
 use crate::lesson::language::Language;
 use crate::lesson::page::{self as page, Chapter, Measured};
-use crate::lesson::{self as study, Repairs, Switch, reference, switches};
+use crate::lesson::{self as study, MOST_SOLVED, Repairs, Switch, reference, switches};
 use base::files::{self, HTML};
 use base::plain::shown;
 use engine::error::Result;
 use paper::corrected::{FAULTS, Fault};
 use paper::door::check_restraints;
 use paper::edited::Edited;
+use paper::findings::FindingId;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -62,7 +63,8 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 fn lesson(args: &Args) -> Result<String> {
-    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("fig1")))?;
+    let path = args.scene.as_deref().unwrap_or(FIG1.as_ref());
+    let (scene, is_fig1) = (Scene::open(path)?, path == FIG1);
     check_restraints(&scene.model)?;
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
@@ -78,30 +80,54 @@ fn lesson(args: &Args) -> Result<String> {
         // A reading that does not allow the model has no run (R6).
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
-        let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        let fig1 = Scene::open("fig1")?;
-        let others = [fig1.clone(), lowered(fig1)].map(|scene| {
-            let name = scene.name.clone();
-            (name, prices(&Case::new(scene), FAULTS.iter().collect()))
-        });
+        let priced = |scene: &Scene| Priced::new(scene.clone(), FAULTS.iter().collect());
+        let fig1 = Scene::open(FIG1)?;
+        let others = [priced(&fig1), priced(&lowered(fig1))];
+        let is_iterated = scene.model.nodes.len() <= MOST_SOLVED;
+        let other = (!is_fig1 && is_iterated).then(|| priced(&scene));
+        let way = if is_fig1 { Some(&others[0]) } else { other.as_ref() };
+        let chapters = [Ok(own), repairs(way, &others[0], args.nodes.clone())].into_iter();
         let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
 }
 
+/// The scene whose way to the right answer stands in for that of a scene that has none.
+const FIG1: &str = "fig1";
+
+/// A case, and what faults cost on it one at a time, behind what no fault does; nothing where the corrected algorithm
+/// itself has no result.
+struct Priced {
+    case: Case,
+    faults: Vec<&'static Fault>,
+    prices: Vec<Price>,
+}
+
+impl Priced {
+    fn new(scene: Scene, faults: Vec<&'static Fault>) -> Self {
+        let case = Case::new(scene);
+        let prices = (!faults.is_empty()).then(|| prices::of_faults(&case, &faults, &|| ()).ok());
+        Priced { case, faults, prices: prices.flatten().unwrap_or_default() }
+    }
+
+    /// Returns the prices of a finding's faults, each with the name of the scene.
+    fn of(&self, finding: FindingId) -> impl Iterator<Item = (String, Price)> {
+        let prices = self.faults.iter().zip(self.prices.iter().skip(1));
+        let own = prices.filter(move |(fault, _)| fault.is_of(finding));
+        own.map(|(_, price)| (self.case.scene.name.clone(), price.clone()))
+    }
+}
+
 /// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such
 /// way.
-fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
-    let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
-    let (scene, nodes, (repairs, u)) = match found {
+fn repairs(own: Option<&Priced>, fig1: &Priced, nodes: Vec<usize>) -> Result<Chapter> {
+    let of = |priced: &Priced| Repairs::new(&priced.case, &priced.prices);
+    let (priced, nodes, (repairs, u)) = match own.and_then(|own| Some((own, nodes, of(own)?))) {
         Some(found) => found,
-        None => {
-            let fig1 = Scene::open("fig1")?;
-            let found = Repairs::new(&fig1).expect("the corrected algorithm solves fig. 1");
-            (fig1, vec![], found)
-        }
+        None => (fig1, vec![], of(fig1).expect("the corrected algorithm solves fig. 1")),
     };
+    let scene = priced.case.scene.clone();
     let printed = Switch::as_printed();
     let model = printed.model(&scene)?;
     let runs = vec![(printed, model)];
@@ -119,31 +145,18 @@ fn lowered(mut scene: Scene) -> Scene {
     scene
 }
 
-/// The faults that have a price on a scene, with that.
-type Prices = Vec<(&'static Fault, Price)>;
-
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
 /// other scenes, by name.
-fn chapter(finding: &'static Finding, others: &[(String, Prices)]) -> Result<Chapter> {
-    let case = Case::new(finding.scene());
+fn chapter(finding: &'static Finding, others: &[Priced]) -> Result<Chapter> {
+    let faults = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    let own = Priced::new(finding.scene(), faults);
+    let case = &own.case;
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
-    let evidence = finding.measure(&case);
-    let faults = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
-    let own = (case.scene.name.clone(), prices(&case, faults));
-    let all = iter::once(&own).chain(others).flat_map(|(name, prices)| {
-        let prices = prices.iter().filter(|(fault, _)| fault.is_of(finding.id));
-        prices.map(|(_, price)| (name.clone(), price.clone()))
-    });
-    let measured = Measured { finding, evidence, prices: all.collect() };
-    Ok(opened(case.scene, runs, vec![], Some(measured)))
-}
-
-/// Returns what faults cost on a scene; nothing where the corrected algorithm itself has no result that is sure.
-fn prices(case: &Case, faults: Vec<&'static Fault>) -> Prices {
-    let prices = prices::of_faults(case, &faults, &|| ()).unwrap_or_default();
-    // The first price is that of no fault.
-    faults.into_iter().zip(prices.into_iter().skip(1)).collect()
+    let evidence = finding.measure(case);
+    let prices = iter::once(&own).chain(others).flat_map(|priced| priced.of(finding.id)).collect();
+    let measured = Measured { finding, evidence, prices };
+    Ok(opened(own.case.scene, runs, vec![], Some(measured)))
 }
 
 /// Returns a chapter with its reference solution, on the model of its first run.

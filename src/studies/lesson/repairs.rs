@@ -1,11 +1,9 @@
 //! The way from the print to the right answer: the corrected programs with the faults that are left.
 
-use super::MOST_SOLVED;
 use crate::audit::Case;
 use crate::audit::prices::{self, Price, needed};
 use nalgebra::DVector;
 use paper::corrected::{FAULTS, Fault};
-use problem::scene::Scene;
 
 /// The repairs of a scene.
 pub struct Repairs {
@@ -16,16 +14,12 @@ pub struct Repairs {
 }
 
 impl Repairs {
-    /// Returns the repairs of a scene, and the solution with which its iterations are compared; nothing where
-    /// no page iterates the scene, or where they lead to no solution.
-    pub fn new(scene: &Scene) -> Option<(Self, DVector<f64>)> {
-        if scene.model.nodes.len() > MOST_SOLVED {
-            return None;
-        }
+    /// Returns the repairs of a case whose faults alone have the prices `alone`, and the solution with which its
+    /// iterations are compared; nothing where they lead to no solution.
+    pub fn new(case: &Case, alone: &[Price]) -> Option<(Self, DVector<f64>)> {
         // A scene that has no solution has no way to it: the lesson shows that of fig. 1.
-        let case = Case::new(scene.clone());
         let exact = case.corrected().ok()?;
-        let rows = prices::repairs(&case, &prices::on(&case, &|| ()).ok()?, &|| ()).ok()?;
+        let rows = prices::repairs(case, alone, &|| ()).ok()?;
         let needed = needed(&rows)?;
         Some((Repairs { rows, needed }, exact.u.clone()))
     }

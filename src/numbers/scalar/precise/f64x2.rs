@@ -51,6 +51,7 @@ impl F64x2 {
         F64x2::settled(fast_two_sum(plain, rest / (2.0 * plain)), plain)
     }
 
+    #[inline]
     fn sum(x: Self, y: Self) -> Self {
         let [high, high_error] = two_sum(x.hi, y.hi);
         let [low, low_error] = two_sum(x.lo, y.lo);
@@ -58,16 +59,19 @@ impl F64x2 {
         F64x2::settled(fast_two_sum(sum, low_error + error), x.hi + y.hi)
     }
 
+    #[inline]
     fn difference(x: Self, y: Self) -> Self {
         x + -y
     }
 
+    #[inline]
     fn product(x: Self, y: Self) -> Self {
         let [product, beside] = F64x2::parts_of_product(x, y);
         F64x2::settled(fast_two_sum(product, beside), product)
     }
 
     /// Returns x · y in two parts that are not brought together yet.
+    #[inline]
     fn parts_of_product(x: Self, y: Self) -> [f64; 2] {
         let [product, error] = two_product(x.hi, y.hi);
         // Where x is an f64 the rest is one product, of the same digits.
@@ -95,6 +99,7 @@ impl F64x2 {
     }
 
     /// Returns `sum`, or where it is not finite what `plain`, the same operation in `f64`, says.
+    #[inline]
     fn settled([hi, lo]: [f64; 2], plain: f64) -> Self {
         match (hi.is_finite() && lo.is_finite(), plain.is_finite()) {
             (true, _) => F64x2 { hi, lo },
@@ -109,6 +114,7 @@ impl F64x2 {
 operators!(F64x2);
 
 /// Returns a + b and its rounding error.
+#[inline]
 fn two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let of_b = sum - a;
@@ -116,12 +122,14 @@ fn two_sum(a: f64, b: f64) -> [f64; 2] {
 }
 
 /// Returns a + b and its rounding error, where |a| >= |b| or a is 0.
+#[inline]
 fn fast_two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     [sum, b - (sum - a)]
 }
 
 /// Returns a · b and its rounding error.
+#[inline]
 fn two_product(a: f64, b: f64) -> [f64; 2] {
     let product = a * b;
     [product, a.mul_add(b, -product)]

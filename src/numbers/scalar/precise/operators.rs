@@ -11,6 +11,7 @@ macro_rules! operators {
             MulAssign mul_assign product);
         impl std::ops::Neg for $scalar {
             type Output = Self;
+            #[inline]
             fn neg(self) -> Self {
                 <$scalar>::negative(self)
             }
@@ -32,6 +33,7 @@ macro_rules! operators {
     (@plain $scalar:ident: $($operator:ident $method:ident $function:ident),+) => {$(
         impl std::ops::$operator for $scalar {
             type Output = Self;
+            #[inline]
             fn $method(self, other: Self) -> Self {
                 <$scalar>::$function(self, other)
             }
@@ -39,6 +41,7 @@ macro_rules! operators {
     )+};
     (@assigning $scalar:ident: $($operator:ident $method:ident $function:ident),+) => {$(
         impl std::ops::$operator for $scalar {
+            #[inline]
             fn $method(&mut self, other: Self) {
                 *self = <$scalar>::$function(*self, other);
             }
