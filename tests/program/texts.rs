@@ -23,7 +23,7 @@ pub fn printed(args: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-fn assert_text(folder: &str, name: &str, args: &[&str]) {
+fn assert_printed(folder: &str, name: &str, args: &[&str]) {
     assert_text(format!("golden/{folder}/{name}"), &printed(args), same_text);
 }
 
@@ -64,7 +64,7 @@ fn solve() {
     for scene in SCENES {
         for variant in Variant::ALL.iter().map(|variant| variant.name()) {
             let args = ["solve", scene, "--variant", variant, "--out", "out"];
-            assert_text(scene, &format!("solve-{variant}"), &args);
+            assert_printed(scene, &format!("solve-{variant}"), &args);
         }
     }
 }
@@ -83,22 +83,22 @@ fn audit() {
         assert!(verdict.split_whitespace().count() <= 12 + 3 * 25, "{verdict}");
         assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
     }
-    assert_text("fig1", "audit-full", &["audit", "fig1", "--full"]);
-    assert_text("findings/C4", "audit", &["audit", "--finding", "C4"]);
-    assert_text("fig1", "claim", &["audit", "fig1", "--claim", "P12"]);
+    assert_printed("fig1", "audit-full", &["audit", "fig1", "--full"]);
+    assert_printed("findings/C4", "audit", &["audit", "--finding", "C4"]);
+    assert_printed("fig1", "claim", &["audit", "fig1", "--claim", "P12"]);
 }
 
 #[test]
 fn plan() {
     for scene in SCENES {
-        assert_text(scene, "plan", &["scene", "plan", scene]);
+        assert_printed(scene, "plan", &["scene", "plan", scene]);
     }
 }
 
 #[test]
 fn c_cnt() {
     for scene in SCENES {
-        assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]);
+        assert_printed(scene, "c_cnt", &["listing", "run", "c_cnt", scene]);
     }
 }
 
