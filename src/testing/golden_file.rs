@@ -13,12 +13,12 @@ pub fn is_written() -> bool {
     std::env::var("INSTA_UPDATE").is_ok_and(|how| how == "always")
 }
 
-/// Compares `text` with the snapshot at `path`, whose name has no `.snap`, under a rule of what is the same, which gets the
+/// Compares `text` with the snapshot at `path`, under a rule of what is the same, which gets the
 /// golden text, then the value. `cargo insta review` shows what differs.
 #[track_caller]
 pub fn assert_text(path: impl AsRef<Path>, text: &str, same: fn(&str, &str) -> bool) {
     let path = absolute(path).expect("a path");
-    let name = path.file_name().and_then(|name| name.to_str()).expect("a name");
+    let name = path.file_stem().and_then(|name| name.to_str()).expect("a name");
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(path.parent().expect("a snapshot lies in a folder"));
     settings.set_prepend_module_to_snapshot(false);

@@ -59,12 +59,12 @@ fn decks_of_fig1() {
         let (scene, solution) = solve("fig1", variant);
         let parts = Contact::parts(&solution).unwrap();
         let text = last_deck(&scene, &solution, &parts);
-        assert_text(format!("{FIG1}/calculix-{variant}"), &text, same_deck);
+        assert_text(format!("{FIG1}/calculix-{variant}.snap"), &text, same_deck);
     }
     let (scene, solution) = solve("fig1", Variant::Tied);
     let pair = |friction| Pair::new(&solution.model, Some(1e7), friction);
     let of = |friction| last_deck(&scene, &solution, &[pair(friction).into()]);
-    assert_text(format!("{FIG1}/calculix-pair"), &of(Friction::STICK), same_deck);
+    assert_text(format!("{FIG1}/calculix-pair.snap"), &of(Friction::STICK), same_deck);
     assert!(of(Friction::STICK).contains("*FRICTION"));
     assert!(!of(Friction::NONE).contains("*FRICTION"));
 }

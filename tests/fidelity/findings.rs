@@ -174,7 +174,7 @@ fn verdicts() {
             writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
         }
     }
-    assert_text("golden/findings/verdicts", &text, same_text);
+    assert_text("golden/findings/verdicts.snap", &text, same_text);
 }
 
 /// Each finding has its folder, with the numbers by hand, and each folder its finding.

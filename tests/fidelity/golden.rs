@@ -62,8 +62,8 @@ fn mjs_of_fig1() {
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
     let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap().to_table();
     let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap().to_table();
-    assert_text("golden/fig1/MJS", &rows(&coupled), same_text);
-    assert_text("golden/fig1/MJS-coupled-by-none", &rows(&free), same_text);
+    assert_text("golden/fig1/MJS.snap", &rows(&coupled), same_text);
+    assert_text("golden/fig1/MJS-coupled-by-none.snap", &rows(&free), same_text);
 }
 
 fn rows(matrix: &Table<f64>) -> String {

@@ -21,5 +21,5 @@ fn what_a_report_says() {
     let text: String = words.collect();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let lines: Vec<&str> = lines.filter(|line| !line.starts_with("program, SHA-256")).collect();
-    assert_text("golden/fig1/report", &lines.join("\n"), same_text);
+    assert_text("golden/fig1/report.snap", &lines.join("\n"), same_text);
 }

@@ -27,7 +27,7 @@ static MEASURED: LazyLock<Vec<SweepTable>> =
 
 #[test]
 fn the_table_is_the_golden_one() {
-    assert_text("golden/extremes/table", &text(&MEASURED), |golden, table| {
+    assert_text("golden/extremes/table.snap", &text(&MEASURED), |golden, table| {
         let near = [-1.0, 1.0].map(|side| text(&moved(side * EXTREME_DIGITS.limit)));
         same_table(golden, [table, &near[0], &near[1]])
     });

@@ -24,7 +24,7 @@ pub fn printed(args: &[&str]) -> String {
 }
 
 fn assert_printed(folder: &str, name: &str, args: &[&str]) {
-    assert_text(format!("golden/{folder}/{name}"), &printed(args), same_text);
+    assert_text(format!("golden/{folder}/{name}.snap"), &printed(args), same_text);
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn audit() {
             "strand" => STRAND.screen.clone(),
             other => printed(&["audit", other]),
         };
-        assert_text(format!("golden/{scene}/audit"), &screen, same_text);
+        assert_text(format!("golden/{scene}/audit.snap"), &screen, same_text);
         assert!(screen.split_whitespace().count() <= 350, "{screen}");
         let verdict = screen.split("\n\n").nth(1).expect("a verdict");
         assert!(verdict.starts_with("No. "), "{verdict}");
@@ -150,7 +150,7 @@ fn help() {
         assert_eq!(broken, None, "{page}");
         all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
-    assert_text("golden/help", &all, same_text);
+    assert_text("golden/help.snap", &all, same_text);
 }
 
 /// The commands that a text names: what follows the name of the program.

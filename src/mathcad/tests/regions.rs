@@ -38,7 +38,7 @@ fn worksheets() {
         let sheet = document::read(&text, &name).expect("a worksheet");
         writeln!(all, "{name}\n{}", rows(&sheet)).expect("room");
     }
-    assert_text("tests/worksheets", &all, |golden, is| golden == is);
+    assert_text("tests/worksheets.snap", &all, |golden, is| golden == is);
 }
 
 fn worksheet(regions: &str) -> document::Worksheet {
