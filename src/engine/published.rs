@@ -51,7 +51,10 @@ pub(super) fn published<T: Precision>(
     let interpreter = interpreter.as_ref();
     let mut run = Run {
         equations: Equations::new(request, &model, &sheet, interpreter, &number)?,
-        surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
+        surfaces: match request.bound_by() {
+            Some(Coupling::Mortar) => Some(Surfaces::new(&model)?),
+            Some(Coupling::Nts) | None => None,
+        },
         reached: Increment::none(model.dofs()),
         visited: Vec::new(),
     };
@@ -91,9 +94,10 @@ pub(super) fn check_published<T: Precision>(
 ) -> Result<(), InputError> {
     check_size(request, model)?;
     let scalar = request.arithmetic.scalar;
-    // The integrals of mortar need square roots and digits.
-    if let Some(why) = scalar.properties().no_mortar.filter(|_| request.is_bound_by_mortar()) {
-        let what = format!("mortar coupling does not run in {scalar}: {why}");
+    if let Some(coupling) = request.bound_by()
+        && let Some(why) = scalar.refuses(coupling)
+    {
+        let what = format!("{coupling} coupling does not run in {scalar}: {why}");
         return Err(InputError::new("scalar", what, "use f64 or f64x2, or coupling nts"));
     }
     check_load(request, model, &model.load_in(|x| number_of::<T>(request, x)))
@@ -144,7 +148,7 @@ fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
 struct Run<'a, T> {
     /// The equations of every iteration.
     equations: Equations<'a, T>,
-    /// The surfaces that mortar needs; None under `nts`.
+    /// The surfaces of a coupling that has weights of its own; None where they are those of `c_cnt`.
     surfaces: Option<Surfaces>,
     /// The sum of the increments so far, or the last one where each has the whole load.
     reached: Increment<T>,
@@ -220,7 +224,7 @@ impl<T: Precision> Run<'_, T> {
         };
         let mut constraints = bound(door::linked(sheet, &pairs));
         self.bind_by_mortar(&mut constraints, &node_n);
-        // The weights of mortar and of an edited c_cnt are their own.
+        // What has weights of its own is measured by them, as an edited c_cnt is.
         let measured = if self.surfaces.is_some() || request.is_edited(Which::CCnt) {
             constraints.clone()
         } else {

@@ -127,12 +127,11 @@ impl Request {
         }
     }
 
-    /// Returns whether mortar gives eq. (1) its weights, under the variants that impose it.
-    pub fn is_bound_by_mortar(&self) -> bool {
-        match (self.variant, self.contact.coupling) {
-            (Variant::Tied | Variant::Stepped, Coupling::Mortar) => true,
-            (Variant::Tied | Variant::Stepped, Coupling::Nts)
-            | (Variant::Printed | Variant::Unilateral, Coupling::Mortar | Coupling::Nts) => false,
+    /// Returns the coupling that gives eq. (1) its weights, under the variants that impose it.
+    pub fn bound_by(&self) -> Option<Coupling> {
+        match self.variant {
+            Variant::Tied | Variant::Stepped => Some(self.contact.coupling),
+            Variant::Printed | Variant::Unilateral => None,
         }
     }
 

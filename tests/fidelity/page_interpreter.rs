@@ -406,7 +406,10 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
         let which = one_of(&mut rng, Which::ALL);
         let text = changed(which.text(), &mut rng);
         let [c_cnt, km] = drawn(&mut runner, &mut rng);
-        let scene = if which == Which::Km { km } else { c_cnt };
+        let scene = match which {
+            Which::CCnt => c_cnt,
+            Which::Km => km,
+        };
         let listing = read(which.name(), &text);
         cases.extend(listing.map(|listing| Case {
             listing,

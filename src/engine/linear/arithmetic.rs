@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use base::choices;
 use base::error::{InputError, Result};
+use problem::modelling::Coupling;
 
 choices! {
     /// The number type that a run computes in.
@@ -55,6 +56,14 @@ impl ScalarName {
     /// Returns whether it keeps all digits.
     pub fn is_exact(self) -> bool {
         self.properties().digits.is_none()
+    }
+
+    /// Returns why the weights of a coupling are not computed in it; None where they are.
+    pub fn refuses(self, coupling: Coupling) -> Option<&'static str> {
+        match coupling {
+            Coupling::Nts => None,
+            Coupling::Mortar => self.properties().no_mortar,
+        }
     }
 
     /// Returns what is known of it.

@@ -66,7 +66,7 @@ fn a_roof_has_one_answer_however_it_is_written() {
 
 #[test]
 fn blocks_with_corners_have_one_answer_however_they_are_written() {
-    for coupling in [Coupling::Nts, Coupling::Mortar] {
+    for &coupling in Coupling::ALL {
         assert_invariant("blocks", &blocks(), coupling, Geometry::Initial);
     }
 }
@@ -119,7 +119,7 @@ fn pairings_turn_with_the_shape() {
             let (s, c) = angle.sin_cos();
             let turn = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
             let turned: Vec<[f64; 2]> = scene.model.nodes.iter().map(|p| turn(*p)).collect();
-            for coupling in [Coupling::Nts, Coupling::Mortar] {
+            for &coupling in Coupling::ALL {
                 let pairs = of(&scene.model.nodes, coupling).into_iter().zip(of(&turned, coupling));
                 for (one, other) in pairs {
                     let (Some(one), Some(other)) = (&one, &other) else {

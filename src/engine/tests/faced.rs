@@ -72,9 +72,9 @@ fn faced(row: &str) -> String {
     if how.ends_with("reversed") {
         model.contact.target.reverse();
     }
-    let coupling = if how.starts_with("nts") { Coupling::Nts } else { Coupling::Mortar };
+    let coupling = how.split(' ').next().and_then(|name| name.parse().ok());
     let surfaces = Surfaces::new(&model).expect("edges of the outline");
-    let pairings = surfaces.pairings(coupling, &model.nodes);
+    let pairings = surfaces.pairings(coupling.expect("a coupling"), &model.nodes);
     pairings.iter().map(|pairing| line(pairing.as_ref())).collect::<Vec<_>>().join("\n")
 }
 

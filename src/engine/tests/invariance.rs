@@ -155,7 +155,7 @@ fn random_scenes_have_one_answer_however_they_are_written() {
     for (number, drawn) in scenes(11, SCENES).enumerate() {
         let with_friction = (number / KINDS.len()).is_multiple_of(RUBBING);
         let frictions: &[f64] = if with_friction { &[0.0, 0.3, f64::INFINITY] } else { &[0.0] };
-        for coupling in [Coupling::Nts, Coupling::Mortar] {
+        for &coupling in Coupling::ALL {
             for &mu in frictions {
                 let model = ContactModel {
                     coupling,

@@ -125,7 +125,7 @@ fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
         let surfaces = Surfaces::new(&model).expect("edges of the outline");
         let refused = surfaces.check_initial_penetration(&model).is_err();
         assert_eq!(refused, is_refused, "{depth}");
-        for coupling in [Coupling::Nts, Coupling::Mortar] {
+        for &coupling in Coupling::ALL {
             let pairings = surfaces.pairings(coupling, &model.nodes);
             assert_eq!(pairings.iter().any(Option::is_some), faces, "{depth} {coupling}");
         }

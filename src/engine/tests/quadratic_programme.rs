@@ -388,7 +388,7 @@ fn random_scenes_agree_with_a_quadratic_programme() {
     let mut counts: BTreeMap<(Kind, String), Count> = BTreeMap::new();
     let mut worst = [0.0_f64; 2];
     for (number, drawn) in scenes(10, SCENES).enumerate() {
-        for coupling in [Coupling::Nts, Coupling::Mortar] {
+        for &coupling in Coupling::ALL {
             let what = format!("scene {number}, {:?}, {:?}, {coupling}", drawn.kind, drawn.support);
             let count = counts.entry((drawn.kind, coupling.to_string())).or_default();
             let differences = compare(&drawn, coupling, count, &what);

@@ -23,7 +23,7 @@ fn outcome(scene: &SceneBuilder) -> String {
 
 fn model(rng: &mut Rng, friction: &[f64]) -> ContactModel {
     ContactModel {
-        coupling: one_of(rng, &[Coupling::Nts, Coupling::Mortar]),
+        coupling: one_of(rng, Coupling::ALL),
         friction: Friction::new(one_of(rng, friction)).unwrap(),
         geometry: one_of(rng, &[Geometry::Current, Geometry::Initial]),
         load_steps: one_of(rng, &[1, 2, 3]),

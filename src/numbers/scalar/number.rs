@@ -13,9 +13,9 @@ pub trait Subscript: Copy {
     fn index(self) -> usize;
 }
 
-/// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No
-/// square root and nothing transcendental, so that `f32`, `f64` and exact rationals all serve. The
-/// square roots of norms are taken on the way out, to `f64`.
+/// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. They
+/// ask for no root and nothing transcendental, so that `f32`, `f64` and exact rationals all serve; roots, as
+/// of norms, are for what stands around the listings.
 pub trait Scalar:
     Subscript
     + Debug

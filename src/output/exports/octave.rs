@@ -84,7 +84,10 @@ pub fn program(export: &Export) -> String {
     );
     let mut text = head(export.title, &about);
     for which in Which::ALL {
-        let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
+        let more = match which {
+            Which::CCnt => ", ct, yt, dy",
+            Which::Km => "",
+        };
         text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
     }
     let mut added = vec![elasticity(export.sheet.plane)];

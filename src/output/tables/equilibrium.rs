@@ -21,8 +21,9 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
     });
     let unseen = found.unseen.map(|(node, depth)| {
         format!(
-            "Node to segment watches contact nodes only: target node {node} lies {} inside the \
+            "Coupling {} watches contact nodes only: target node {node} lies {} inside the \
              contact surface; mortar sees it",
+            solution.request.contact.coupling,
             length(depth)
         )
     });

@@ -215,13 +215,12 @@ fn other_codes(contents: &Contents) -> Report {
 /// Reports what makes the report again: the command, and what it starts from.
 fn origin(contents: &Contents) -> Report {
     let Contents { scene, command, asked, .. } = contents;
-    let hashes = scene.hashes().iter().cloned();
-    let hashes = ["scene, SHA-256", "mesh, SHA-256"].into_iter().zip(hashes);
-    let listings = [("listing c_cnt, SHA-256", Which::CCnt), ("listing Km, SHA-256", Which::Km)];
-    let listings = listings.map(|(what, which)| (what, hash(which.text())));
-    let rows: Vec<(&str, String)> = asked.iter().cloned().chain(hashes).chain(listings).collect();
-    let table = Table::from_rows(rows)
-        .column("what", |(what, _)| *what)
+    let asked = asked.iter().map(|(what, value)| (what.to_string(), value.clone()));
+    let own = ["scene", "mesh"].map(String::from).into_iter().zip(scene.hashes().iter().cloned());
+    let listings = Which::ALL.iter().map(|which| (format!("listing {which}"), hash(which.text())));
+    let hashes = own.chain(listings).map(|(what, hash)| (what + ", SHA-256", hash));
+    let table = Table::from_rows(asked.chain(hashes).collect::<Vec<_>>())
+        .column("what", |(what, _)| what.clone())
         .column("set to", |(_, value)| value.clone());
     Report::default()
         .heading("How to make this report again")

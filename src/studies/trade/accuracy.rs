@@ -113,9 +113,7 @@ fn precisions(request: &Request) -> Vec<Precision> {
     // `f32` is dearer than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with
     // equal peak memory, as f64 has the better solver.
     let tried = [ScalarName::F64, ScalarName::F64x2, ScalarName::Exact].into_iter();
-    let runs = |scalar: &ScalarName| {
-        !request.is_bound_by_mortar() || scalar.properties().no_mortar.is_none()
-    };
+    let runs = |scalar: &ScalarName| request.bound_by().is_none_or(|c| scalar.refuses(c).is_none());
     let precision = |scalar: ScalarName| {
         let solver =
             if by_lu && !scalar.is_exact() { Solver::DenseLu } else { Solver::SparseCholesky };
