@@ -1,7 +1,7 @@
 //! The worksheet: tables, `Ae`, `B`, `D`, the listings, the iterations, and our results beside
 //! Mathcad's.
 
-use super::{CorrectedExport, Export, ITERATED, MOVED, Run, listing};
+use super::{CorrectedExport, Export, ITERATED, Iterated, MOVED, listing};
 use ::mathcad::value::Array;
 use ::mathcad::xmcd::{page::Page, write};
 use ::mathcad::{Settings, Value};
@@ -167,7 +167,7 @@ fn elements(page: &mut Page, sheet: &Worksheet<f64>) {
     page.program(&listing(elasticity(sheet.plane)));
 }
 
-fn iterations(page: &mut Page, export: &Export, run: &Run) {
+fn iterations(page: &mut Page, export: &Export, run: &Iterated) {
     page.heading("The iterations / Итерации");
     page.define("F", write::matrix(&Array::column(run.force.clone())), run.force.len());
     let states = STATES.replace(

@@ -22,7 +22,7 @@ pub struct Export<'a> {
     /// What the areas are multiplied by, length.
     pub thickness: f64,
     /// The load and its iterations, if they are exported too.
-    pub run: Option<Run>,
+    pub run: Option<Iterated>,
 }
 
 /// The corrected algorithm on a scene, and what this program has for it.
@@ -44,7 +44,7 @@ pub struct CorrectedExport<'a> {
 }
 
 /// The iterations of the variant `printed`, and what this program has for them.
-pub struct Run {
+pub struct Iterated {
     /// The load vector, 0 at restrained equations, force. 2R.
     pub force: Vec<f64>,
     /// How many iterations were run.

@@ -6,7 +6,7 @@ use base::error::InputError;
 use base::files;
 use engine::error::{Error, Result};
 use engine::{self, Request};
-use output::exports::{CorrectedExport, Export, Run, mathcad, octave};
+use output::exports::{CorrectedExport, Export, Iterated, mathcad, octave};
 use paper::corrected::{Bound, STEPS, check, iterate};
 use paper::door;
 use problem::model::Model;
@@ -83,7 +83,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     let sheet = door::worksheet(&model, |x| x);
     // Where the published algorithm stops, the worksheet has the listings alone.
     let solved = waiting("solving", || engine::solve(&request, &mut |_| ()));
-    let run = Error::found(solved)?.map(|solution| Run {
+    let run = Error::found(solved)?.map(|solution| Iterated {
         force: model.free_part(&solution.model.load_in(|x| x)).as_slice().to_vec(),
         iterations: solution.steps.len(),
         pairs: door::Call::c_cnt(&model, &reading, &model.nodes).expect("the run called it").pairs,

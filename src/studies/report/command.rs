@@ -8,7 +8,7 @@ use crate::audit::{Audit, Case, audit, steps};
 use crate::calculix::{self, Pair};
 use crate::compare;
 use crate::report::page;
-use crate::report::{Contents, Run};
+use crate::report::{AssessedRun, Contents};
 use base::error::InputError;
 use base::files::{self, HTML};
 use base::plain::{shell_word, shown};
@@ -96,7 +96,7 @@ fn repairs(args: &Args, case: &Case, audit: &Audit) -> Vec<Price> {
 
 /// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and
 /// the equilibrium, for which the audit measured what rounding does.
-fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
+fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<AssessedRun<'a>> {
     let ran = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
     let others = [case.reference(), case.equilibrium()];
     let runs = ran.chain(others.into_iter().flatten());
@@ -108,7 +108,7 @@ fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
         });
         let mut assessment = Assessment::against(solution, others);
         assessment.rounding = rounding.or(assessment.rounding);
-        Run { solution, assessment }
+        AssessedRun { solution, assessment }
     };
     runs.map(assessed).collect()
 }

@@ -35,13 +35,13 @@ pub struct Contents<'a> {
     /// The print, repaired one finding at a time; empty where that was not asked for.
     pub repairs: Vec<Price>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
-    pub runs: Vec<Run<'a>>,
+    pub runs: Vec<AssessedRun<'a>>,
     /// The run beside CalculiX.
     pub calculix: Option<Compared<'a>>,
 }
 
 /// A run of a report.
-pub struct Run<'a> {
+pub struct AssessedRun<'a> {
     /// What was computed.
     pub solution: &'a Solution,
     /// What is said of its errors.
@@ -98,7 +98,7 @@ fn what_was_audited() -> Report {
 /// Returns the runs of the pictures under short names: the paper's, then the equilibrium.
 fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
     let equilibrium = contents.audit.equilibrium.as_ref().map(|_| contents.runs.len() - 1);
-    let name = |(k, run): (usize, &Run)| {
+    let name = |(k, run): (usize, &AssessedRun)| {
         let variant = run.solution.request.variant;
         match equilibrium == Some(k) {
             true => Some("equilibrium".into()),
@@ -158,7 +158,9 @@ fn beside(scene: &Scene, runs: &[(String, &Solution)], field: &str) -> Option<Pi
 
 /// Shows the mesh, the strain, then stress, pressure, shear and gap of all runs.
 fn figures(contents: &Contents) -> Report {
-    let Some(Run { solution, assessment }) = contents.runs.last() else { return Report::default() };
+    let Some(AssessedRun { solution, assessment }) = contents.runs.last() else {
+        return Report::default();
+    };
     let scene = contents.scene;
     let [heading, mesh, strain] = match is_example(scene) {
         true => ["This project's own figures 4 and 5", "Figure 4: the mesh", "Figure 5b: "],

@@ -6,7 +6,7 @@ use super::axis::{AXES, Axis, Truth};
 use super::errors::{Contact, Errors};
 use super::order::Order;
 use super::rows::{Row, Section, Trade};
-use super::trial::{Run, Trial};
+use super::trial::{TimedTrial, Trial};
 use base::error::InputError;
 use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
 use problem::scene::Derived;
@@ -49,16 +49,16 @@ pub fn measure(request: &Request, plan: Plan, runs: usize, watch: impl Fn(&str))
 }
 
 /// Runs the trials in turn, `rounds` times.
-fn timed(axis: &Axis, trials: Vec<Trial>, rounds: usize, watch: &impl Fn(&str)) -> Vec<Run> {
+fn timed(axis: &Axis, trials: Vec<Trial>, rounds: usize, watch: &impl Fn(&str)) -> Vec<TimedTrial> {
     let ran = |Trial { label, request, .. }: &Trial| {
         watch(&format!("{} {} {label}", axis.name, request.variant));
     };
     let first = |trial| {
-        let run = Run::new(trial, axis);
+        let run = TimedTrial::new(trial, axis);
         ran(&run.trial);
         run
     };
-    let mut runs: Vec<Run> = trials.into_iter().map(first).collect();
+    let mut runs: Vec<TimedTrial> = trials.into_iter().map(first).collect();
     for _ in 1..rounds {
         for run in &mut runs {
             run.repeat();
@@ -70,7 +70,7 @@ fn timed(axis: &Axis, trials: Vec<Trial>, rounds: usize, watch: &impl Fn(&str)) 
 
 struct Bench<'a> {
     axis: &'static Axis,
-    runs: &'a [Run],
+    runs: &'a [TimedTrial],
     reference: Option<&'a Solution>,
 }
 
@@ -88,10 +88,11 @@ impl Bench<'_> {
     }
 
     fn row(&self, place: usize) -> Row {
-        let Run { trial, seconds, solution, certainty } = &self.runs[place];
+        let TimedTrial { trial, seconds, solution, certainty } = &self.runs[place];
         let (failure, solution) = (solution.as_ref().err().cloned(), solution.as_ref().ok());
         let last = solution.and_then(|solution| solution.steps.last());
-        let same = |run: &Run| run.trial.own && run.trial.request.variant == trial.request.variant;
+        let same =
+            |run: &TimedTrial| run.trial.own && run.trial.request.variant == trial.request.variant;
         let from_own = || self.between(place, self.runs.iter().position(same));
         let finest = || self.runs.iter().rposition(|run| run.solution.is_ok());
         let (error, change) = match self.axis.truth {

@@ -2,7 +2,7 @@
 //! costs, and how accurate it is.
 //!
 //! ```text
-//!  Request, Axis --trials--> Trial --Run--> seconds, Solution
+//!  Request, Axis --trials--> Trial --TimedTrial--> seconds, Solution
 //!                                             |
 //!    Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```

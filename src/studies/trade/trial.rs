@@ -35,7 +35,7 @@ pub(super) fn most_exact(request: &Request) -> usize {
 }
 
 /// The runs of a trial: how long each took, and what all of them computed.
-pub(super) struct Run {
+pub(super) struct TimedTrial {
     pub(super) trial: Trial,
     /// A time for each run, seconds.
     pub(super) seconds: Vec<f64>,
@@ -44,7 +44,7 @@ pub(super) struct Run {
     pub(super) certainty: Option<Certainty>,
 }
 
-impl Run {
+impl TimedTrial {
     /// Runs a trial from the scene alone: the time includes every factorisation.
     pub(super) fn new(trial: Trial, axis: &Axis) -> Self {
         let start = Instant::now();
@@ -55,7 +55,7 @@ impl Run {
             Truth::Equilibrium => solution,
             Truth::Last(_) | Truth::Finest | Truth::Own(_) => solution.map(light),
         };
-        Run { trial, seconds, solution, certainty: None }
+        TimedTrial { trial, seconds, solution, certainty: None }
     }
 
     /// Runs it once more for the time, unless it failed or took long.
@@ -72,9 +72,9 @@ impl Run {
         match self.solution {
             Ok(solution) if axis.truth == Truth::Equilibrium => {
                 let (solution, certainty) = certain(solution);
-                Run { solution: Ok(light(solution)), certainty: Some(certainty), ..self }
+                TimedTrial { solution: Ok(light(solution)), certainty: Some(certainty), ..self }
             }
-            solution => Run { solution, ..self },
+            solution => TimedTrial { solution, ..self },
         }
     }
 }
