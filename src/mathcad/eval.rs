@@ -119,23 +119,24 @@ impl Run<'_, '_, '_> {
             recorder.begin(&self.listing.lines[self.line]);
         }
         self.spend(1)?;
+        let blocks = &statement.blocks;
         match &statement.step {
-            Step::While { condition, body } => return self.repeat_while(condition, body),
-            Step::Otherwise { body } => {
-                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(body) };
+            Step::While { condition } => return self.repeat_while(condition, &blocks[0]),
+            Step::Otherwise => {
+                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(&blocks[0]) };
             }
-            Step::Try { body, fallback } => {
-                return match self.block(body) {
+            Step::Try => {
+                return match self.block(&blocks[0]) {
                     Err(failure) if !failure.is_limit() => {
                         self.spend_on(&failure)?;
-                        self.block(fallback)
+                        self.block(&blocks[1])
                     }
                     outcome => outcome,
                 };
             }
             _ if !self.admits(statement, held)? => return Ok(Flow::Next),
-            Step::For { name, range, body } => return self.repeat(*name, range, body),
-            Step::If { body, .. } => return self.block(body),
+            Step::For { name, range } => return self.repeat(*name, range, &blocks[0]),
+            Step::Block => return self.block(&blocks[0]),
             Step::Break => return Ok(Flow::Break),
             Step::Continue => return Ok(Flow::Continue),
             Step::Assign { target, value } => {
@@ -158,9 +159,7 @@ impl Run<'_, '_, '_> {
 
     /// Returns whether the statement's condition is true; one without a condition always runs.
     fn admits(&mut self, statement: &Statement, held: &mut bool) -> Fallible<bool> {
-        let Some(condition) = statement.condition() else {
-            return Ok(true);
-        };
+        let Some(condition) = &statement.guard else { return Ok(true) };
         let truth = self.condition(condition)?;
         *held |= truth;
         if !truth && self.settings.last_if_is_zero {

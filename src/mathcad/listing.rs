@@ -61,7 +61,7 @@ fn uses(block: &[Statement], bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, U
     for statement in block {
         statement.step.written().into_iter().for_each(|slot| used(slot, Use::Written));
         statement.on_line().into_iter().for_each(|expr| uses_within(expr, bound, used));
-        statement.step.blocks().into_iter().for_each(|block| uses(block, bound, used));
+        statement.blocks.iter().for_each(|block| uses(block, bound, used));
     }
 }
 
@@ -235,7 +235,7 @@ impl Reader<'_> {
         }
         let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
         self.check_depth(line, &body)?;
-        if !body.step.blocks().is_empty() || matches!(body.step, Step::Break | Step::Continue) {
+        if !body.blocks.is_empty() || matches!(body.step, Step::Break | Step::Continue) {
             return self.refuse(line, "found a block behind `:=`, expected it indented below");
         }
         Ok((parameters, Some(body)))
@@ -259,7 +259,7 @@ impl Reader<'_> {
             let mut statement = statement.map_err(|complaint| self.error(line, complaint))?;
             self.check_depth(line, &statement)?;
             self.next += 1;
-            for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
+            for (k, body) in statement.blocks.iter_mut().enumerate() {
                 // Between the two blocks of `try`.
                 if k > 0 {
                     let other = self.lines.get(self.next);
@@ -304,7 +304,7 @@ impl Reader<'_> {
         let limit = self.limits.depth;
         let deep = |expr: &&Expr| expr.depth(limit + 1) > limit;
         // What stands on the line: `x otherwise` has it in its block.
-        let inside = statement.step.blocks().into_iter().flatten().flat_map(Statement::on_line);
+        let inside = statement.blocks.iter().flatten().flat_map(Statement::on_line);
         match statement.on_line().into_iter().chain(inside).find(deep) {
             Some(expr) => {
                 let message = format!("found operators and brackets more than {limit} deep");

@@ -131,24 +131,22 @@ impl Writer<'_> {
     }
 
     fn statement(&self, statement: &Statement) -> Element {
+        let mut blocks = statement.blocks.iter().map(|block| self.block(block));
         let line = match &statement.step {
-            Step::If { condition, body } => {
-                element("ml:ifThen", [self.expr(condition), self.block(body)])
+            Step::Block => blocks.next().expect("the block below `if`"),
+            Step::While { condition } => {
+                element("ml:while", [self.expr(condition)].into_iter().chain(blocks))
             }
-            Step::While { condition, body } => {
-                element("ml:while", [self.expr(condition), self.block(body)])
-            }
-            Step::Otherwise { body } => element("ml:otherwise", [self.block(body)]),
-            Step::Try { body, fallback } => {
-                element("ml:tryCatch", [self.block(body), self.block(fallback)])
-            }
-            Step::For { name, range, body } => {
+            Step::Otherwise => element("ml:otherwise", blocks),
+            Step::Try => element("ml:tryCatch", blocks),
+            Step::For { name, range } => {
                 let start = self.sequence(&range.values);
                 let range = match &range.to {
                     Some(to) => element("ml:range", [start, self.expr(to)]),
                     None => start,
                 };
-                element("ml:for", [id(self.names.name(*name)), range, self.block(body)])
+                let head = [id(self.names.name(*name)), range];
+                element("ml:for", head.into_iter().chain(blocks))
             }
             Step::Assign { target, value } => {
                 element("ml:localDefine", [self.expr(target), self.expr(value)])
