@@ -107,7 +107,7 @@ fn call_of(program: &Listing) -> String {
 /// The worksheet that `--inputs` spells.
 fn inputs(text: &str) -> Result<Sheet, InputError> {
     let fix = "give an object such as {\"x\": 1, \"A\": [[1, 2], [3, 4]]}";
-    let kind = files::json::Kind { name: "object of inputs", fix, has_values: true };
+    let kind = files::json::Kind { name: "object of inputs", fix };
     let names: serde_json::Map<String, serde_json::Value> =
         files::json::read(text.as_bytes(), &kind).map_err(|error| error.within("--inputs"))?;
     let mut sheet = Sheet::default();
