@@ -9,7 +9,7 @@ use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::{Defined, Numbers};
-use super::state::{Ended, Run, Variable};
+use super::state::{Ended, Run};
 use super::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Span, Statement, Step,
 };
@@ -60,7 +60,7 @@ impl Turns {
     }
 }
 
-impl Run<'_, '_, '_> {
+impl Run<'_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
     pub fn run(mut self, arguments: &[Value]) -> Fallible<Ended> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
@@ -248,8 +248,10 @@ impl Run<'_, '_, '_> {
     fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
         let [value] = values else { return None };
         let name = value.name()?;
-        let has_value = self.cells[name].value.is_some();
-        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(name))
+        match self.cells[name].value {
+            Some(_) => None,
+            None => self.sheet.range(self.listing.names.name(name)),
+        }
     }
 
     /// Returns what a loop runs over: a value, or the entries of several as one column.
@@ -698,11 +700,10 @@ impl Run<'_, '_, '_> {
 
     /// Returns the value of the function that the name `slot` stands for.
     fn call(&mut self, slot: Slot, arguments: &[Value]) -> Fallible<Value> {
-        let builtin = match &mut self.functions[slot] {
+        let builtin = match &self.functions[slot] {
             None => return Err(self.undefined(slot, true).into()),
             Some(Function::Program(program)) => {
-                let program = program.clone();
-                return self.call_program(&program, arguments);
+                return self.call_program(&program.clone(), arguments);
             }
             Some(Function::Outside(function)) => {
                 let name = self.listing.names.name(slot);
@@ -744,32 +745,11 @@ impl Run<'_, '_, '_> {
         }
         // Each name is looked up in the worksheet.
         self.spend(16 + 8 * program.names.len() as u64)?;
-        let names = || program.names.all();
-        let sheet = defined.above.as_deref().or(self.sheet);
-        let value = |name| sheet.and_then(|sheet| sheet.value(name));
-        // Its own name is itself where nothing above it has that name.
-        let function = |name| {
-            let itself =
-                || (name == program.function()).then(|| Function::Program(defined.clone()));
-            Function::named(sheet, name).or_else(itself)
-        };
-        let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
-        let mut functions: Vec<_> = names().map(function).collect();
-        let run = Run {
-            listing: program,
-            sheet,
-            settings: self.settings,
-            limits: self.limits,
-            cells,
-            functions: &mut functions,
-            recorder: None,
-            line: 0,
-            spent: self.spent,
-            stored: self.stored,
-            depth,
-            last: None,
-            trace: vec![],
-        };
+        let sheet = defined.above.as_deref().unwrap_or(self.sheet);
+        let mut run = Run::new(program, sheet, self.settings, self.limits, self.spent);
+        (run.stored, run.depth) = (self.stored, depth);
+        // Its own name, the first, is itself where nothing above it has that name.
+        run.functions[0].get_or_insert_with(|| Function::Program(defined.clone()));
         let outcome = run.run(arguments)?;
         self.trace.extend(outcome.trace_output);
         Ok(outcome.value)

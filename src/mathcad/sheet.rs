@@ -4,26 +4,27 @@ use std::collections::BTreeMap;
 use std::f64::consts::{E, PI};
 use std::rc::Rc;
 
+use super::function::Function;
 use super::listing::Listing;
 use super::value::Value;
 
 /// The names of a worksheet. Mathcad's own constants are there from the start: `π`, `e`, and the
 /// angles `deg` and `rad`, which are numbers.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Sheet {
     names: BTreeMap<String, Meanings>,
 }
 
 /// What a name stands for: a call tells a function from a value.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 struct Meanings {
     value: Option<Value>,
-    program: Option<Defined>,
+    function: Option<Function>,
     range: Option<Numbers>,
 }
 
 /// A function of a worksheet.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Defined {
     /// The function's program.
     pub program: Rc<Listing>,
@@ -37,7 +38,7 @@ pub type Numbers = (f64, Option<f64>, f64);
 impl Default for Sheet {
     fn default() -> Self {
         let constants = [("π", PI), ("e", E), ("deg", PI / 180.0), ("rad", 1.0)];
-        let mut sheet = Sheet { names: BTreeMap::new() };
+        let mut sheet = Sheet::empty();
         for (name, x) in constants {
             sheet.define(name, x);
         }
@@ -46,6 +47,11 @@ impl Default for Sheet {
 }
 
 impl Sheet {
+    /// Returns the sheet on which nothing is defined, not even Mathcad's constants.
+    pub(super) fn empty() -> Self {
+        Sheet { names: BTreeMap::new() }
+    }
+
     fn meanings(&mut self, name: &str) -> &mut Meanings {
         self.names.entry(name.into()).or_default()
     }
@@ -59,8 +65,18 @@ impl Sheet {
     /// Defines the function that a listing's first line names, in a file of functions: its names are
     /// those at the call, wherever they stand.
     pub fn define_program(&mut self, program: Rc<Listing>) -> &mut Self {
-        self.meanings(program.function()).program =
-            Some(Defined { program: program.clone(), above: None });
+        let name = program.function().to_string();
+        self.meanings(&name).function = Some(Function::Program(Defined { program, above: None }));
+        self
+    }
+
+    /// Defines a function from outside.
+    pub fn define_function(
+        &mut self,
+        name: &str,
+        function: impl Fn(&[Value]) -> Result<Value, String> + 'static,
+    ) -> &mut Self {
+        self.meanings(name).function = Some(Function::Outside(Rc::new(function)));
         self
     }
 
@@ -70,8 +86,8 @@ impl Sheet {
         let above = program.names.all().filter_map(|name| self.names.get_key_value(name));
         let above = Sheet { names: above.map(|(k, v)| (k.clone(), v.clone())).collect() };
         let name = program.function().to_string();
-        let program = Some(Defined { program, above: Some(above.into()) });
-        self.names.insert(name, Meanings { program, ..Meanings::default() });
+        let function = Some(Function::Program(Defined { program, above: Some(above.into()) }));
+        self.names.insert(name, Meanings { function, ..Meanings::default() });
         self
     }
 
@@ -98,11 +114,14 @@ impl Sheet {
 
     /// Returns the program of a function; None where the name is none.
     pub fn program(&self, name: &str) -> Option<&Rc<Listing>> {
-        self.defined(name).map(|defined| &defined.program)
+        match self.function(name)? {
+            Function::Program(defined) => Some(&defined.program),
+            Function::Builtin(_) | Function::Outside(_) => None,
+        }
     }
 
-    pub(super) fn defined(&self, name: &str) -> Option<&Defined> {
-        self.names.get(name)?.program.as_ref()
+    pub(super) fn function(&self, name: &str) -> Option<&Function> {
+        self.names.get(name)?.function.as_ref()
     }
 
     /// Returns whether a name has a value, a function or a range.

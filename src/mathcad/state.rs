@@ -34,14 +34,14 @@ pub struct Ended {
     pub trace_output: Vec<String>,
 }
 
-pub struct Run<'r, 'l, 'f> {
+pub struct Run<'r, 'f> {
     pub listing: &'r Listing,
-    /// The worksheet in which the functions that are called stand, if it defines any.
-    pub sheet: Option<&'r Sheet>,
+    /// The worksheet in which the functions that are called stand.
+    pub sheet: &'r Sheet,
     pub settings: &'r Settings,
     pub limits: &'r Limits,
     pub cells: Vec<Variable>,
-    pub functions: &'r mut [Option<Function<'l>>],
+    pub functions: Vec<Option<Function>>,
     pub recorder: Option<&'r mut Recorder<'f>>,
     /// The current line, counted from 0 through the listing's lines.
     pub line: usize,
@@ -57,7 +57,35 @@ pub struct Run<'r, 'l, 'f> {
     pub trace: Vec<String>,
 }
 
-impl<'r> Run<'r, '_, '_> {
+impl<'r> Run<'r, '_> {
+    /// Makes the run of a listing, whose names are those of the sheet.
+    pub fn new(
+        listing: &'r Listing,
+        sheet: &'r Sheet,
+        settings: &'r Settings,
+        limits: &'r Limits,
+        spent: &'r Cell<u64>,
+    ) -> Self {
+        let names = || listing.names.all();
+        Run {
+            listing,
+            sheet,
+            settings,
+            limits,
+            cells: names()
+                .map(|name| Variable { value: sheet.value(name), local: false })
+                .collect(),
+            functions: names().map(|name| Function::named(sheet, name)).collect(),
+            recorder: None,
+            line: 0,
+            spent,
+            stored: 0,
+            depth: listing.depth,
+            last: None,
+            trace: vec![],
+        }
+    }
+
     /// Counts `steps` against the limit.
     pub fn spend(&self, steps: u64) -> Fallible<()> {
         let spent = self.spent.get().saturating_add(steps);
@@ -126,15 +154,13 @@ impl<'r> Run<'r, '_, '_> {
     /// Returns why a name has no value, or, where it is `called`, is no function.
     pub fn undefined(&self, slot: Slot, called: bool) -> Cause {
         let name = self.listing.names.name(slot);
-        let is_range = self.sheet.is_some_and(|sheet| sheet.range(name).is_some());
-        let is_program = self.sheet.is_some_and(|sheet| sheet.program(name).is_some());
         let construct = if called && unsupported::is_function(name) {
             format!("the function {name}")
-        } else if is_range {
+        } else if self.sheet.range(name).is_some() {
             format!("a range variable in an expression ({name})")
         } else if called {
             return Cause::Undefined { name: name.into() };
-        } else if unsupported::is_unit(name) && !is_program {
+        } else if unsupported::is_unit(name) && self.sheet.program(name).is_none() {
             format!("units: {name}")
         } else if self.functions[slot].is_some() {
             format!("a function as a value ({name})")
