@@ -650,12 +650,13 @@ impl Run<'_, '_> {
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
     /// evaluating `∧`: one that is `decisive` decides alone.
     /// ```
-    /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings};
+    /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings, Sheet};
     /// let listing = Listing::parse("f", "f(v) :=\n  v[1] > 1 ∧ v[0] > 1").unwrap();
     /// let v = plane_contact_mathcad::evaluate("(1; 2)").unwrap();
     /// let under = |conjunction| {
     ///     let settings = Settings { conjunction, ..Settings::default() };
-    ///     listing.runner(&settings, &Limits::default()).call(&[v.clone()]).is_ok()
+    ///     let sheet = Sheet::default();
+    ///     listing.runner(&sheet, &settings, &Limits::default()).call(&[v.clone()]).is_ok()
     /// };
     /// // The first operand is false, and v has no entry 0.
     /// let methods = [Conjunction::Guarded, Conjunction::LeftToRight, Conjunction::Eager];

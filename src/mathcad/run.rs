@@ -1,6 +1,5 @@
 //! Running a listing in the worksheet around it.
 
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::error::Error;
 
@@ -23,62 +22,33 @@ use super::value::Value;
 pub fn evaluate(lines: &str) -> Result<Value, Box<dyn Error>> {
     let lines: Vec<String> = lines.lines().map(|line| format!("  {line}")).collect();
     let listing = Listing::parse("_", &format!("_() :=\n{}", lines.join("\n")))?;
-    Ok(listing.runner(&Settings::default(), &Limits::default()).call(&[])?.value)
+    let sheet = Sheet::empty();
+    Ok(listing.runner(&sheet, &Settings::default(), &Limits::default()).call(&[])?.value)
 }
 
 /// A listing in a worksheet: what is defined above it, and the settings.
 pub struct Runner<'l> {
     listing: &'l Listing,
-    sheet: Cow<'l, Sheet>,
+    sheet: &'l Sheet,
     settings: Settings,
     limits: Limits,
     spent: Cell<u64>,
 }
 
 impl Listing {
-    /// Returns a runner of the listing where only Mathcad's own functions are defined.
-    pub fn runner(&self, settings: &Settings, limits: &Limits) -> Runner<'_> {
-        Runner::new(self, Cow::Owned(Sheet::empty()), settings, limits)
-    }
-
     /// Returns a runner of the listing in the worksheet `sheet`.
-    pub fn runner_in<'l>(
+    pub fn runner<'l>(
         &'l self,
         sheet: &'l Sheet,
         settings: &Settings,
         limits: &Limits,
     ) -> Runner<'l> {
-        Runner::new(self, Cow::Borrowed(sheet), settings, limits)
+        let (settings, limits) = (settings.clone(), limits.clone());
+        Runner { listing: self, sheet, settings, limits, spent: Cell::default() }
     }
 }
 
-impl<'l> Runner<'l> {
-    fn new(
-        listing: &'l Listing,
-        sheet: Cow<'l, Sheet>,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Self {
-        let (settings, limits) = (settings.clone(), limits.clone());
-        Runner { listing, sheet, settings, limits, spent: Cell::default() }
-    }
-
-    /// Defines a name above the listing.
-    pub fn define(&mut self, name: &str, value: impl Into<Value>) -> &mut Self {
-        self.sheet.to_mut().define(name, value);
-        self
-    }
-
-    /// Defines a function above the listing; it replaces a built-in one of that name.
-    pub fn define_function(
-        &mut self,
-        name: &str,
-        function: impl Fn(&[Value]) -> Result<Value, String> + 'static,
-    ) -> &mut Self {
-        self.sheet.to_mut().define_function(name, function);
-        self
-    }
-
+impl Runner<'_> {
     /// Calls the listing's function.
     ///
     /// # Errors

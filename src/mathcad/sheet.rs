@@ -48,7 +48,7 @@ impl Default for Sheet {
 
 impl Sheet {
     /// Returns the sheet on which nothing is defined, not even Mathcad's constants.
-    pub(super) fn empty() -> Self {
+    pub fn empty() -> Self {
         Sheet { names: BTreeMap::new() }
     }
 

@@ -226,7 +226,7 @@ impl<'r> Run<'r, '_> {
         };
         let copied = if shared { rows * cols } else { 0 };
         let moved = if more > 0 && j >= cols { rows * cols } else { 0 };
-        self.room(more.saturating_add(value.count() - 1))?;
+        self.room(more.saturating_add(value.count()).saturating_sub(1))?;
         self.spend((copied + moved + more) as u64)?;
         self.record_write(target, Some(subscripts), &value);
         let cell = &mut self.cells[target];

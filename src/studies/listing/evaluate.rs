@@ -73,8 +73,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         return Err(InputError::new("--call", what, "give its value by --inputs").into());
     }
     let limits = Limits { steps: args.limit, ..Limits::default() };
-    let outcome =
-        waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
+    let outcome = waiting("executing", || call.runner(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
             let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
