@@ -8,8 +8,8 @@ use super::function::Function;
 use super::listing::Listing;
 use super::value::Value;
 
-/// The names of a worksheet. Mathcad's own constants are there from the start: `π`, `e`, and the
-/// angles `deg` and `rad`, which are numbers.
+/// The names of a worksheet. By default it has Mathcad's own constants: `π`, `e`, and the angles `deg` and
+/// `rad`, which are numbers.
 #[derive(Clone)]
 pub struct Sheet {
     names: BTreeMap<String, Meanings>,
@@ -47,7 +47,7 @@ impl Default for Sheet {
 }
 
 impl Sheet {
-    /// Returns the sheet on which nothing is defined, not even Mathcad's constants.
+    /// Makes a worksheet without names, Mathcad's constants among them.
     pub fn empty() -> Self {
         Sheet { names: BTreeMap::new() }
     }
