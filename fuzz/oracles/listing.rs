@@ -59,7 +59,7 @@ fn of_text(text: &str) {
     }
     let given: Vec<Value> =
         (0..programs[0].parameters.len()).map(|k| values[k % values.len()].clone()).collect();
-    match programs[0].runner_in(&sheet, &settings, &limits()).call(&given) {
+    match programs[0].runner(&sheet, &settings, &limits()).call(&given) {
         Ok(outcome) => {
             outcome.locals.values().chain([&outcome.value]).for_each(is_finite);
             sound::document(&evaluation::json(&outcome));

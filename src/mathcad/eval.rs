@@ -9,11 +9,11 @@ use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::{Defined, Numbers};
-use super::state::{Ended, Run, Variable};
+use super::state::{Ended, Run};
 use super::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Span, Statement, Step,
 };
-use super::value::{Array, Grid, Value};
+use super::value::{Grid, Value};
 
 /// The largest power of a matrix: numbers up to it are whole or not.
 const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
@@ -60,7 +60,7 @@ impl Turns {
     }
 }
 
-impl Run<'_, '_, '_> {
+impl Run<'_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
     pub fn run(mut self, arguments: &[Value]) -> Fallible<Ended> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
@@ -119,23 +119,24 @@ impl Run<'_, '_, '_> {
             recorder.begin(&self.listing.lines[self.line]);
         }
         self.spend(1)?;
+        let blocks = &statement.blocks;
         match &statement.step {
-            Step::While { condition, body } => return self.repeat_while(condition, body),
-            Step::Otherwise { body } => {
-                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(body) };
+            Step::While { condition } => return self.repeat_while(condition, &blocks[0]),
+            Step::Otherwise => {
+                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(&blocks[0]) };
             }
-            Step::Try { body, fallback } => {
-                return match self.block(body) {
+            Step::Try => {
+                return match self.block(&blocks[0]) {
                     Err(failure) if !failure.is_limit() => {
                         self.spend_on(&failure)?;
-                        self.block(fallback)
+                        self.block(&blocks[1])
                     }
                     outcome => outcome,
                 };
             }
             _ if !self.admits(statement, held)? => return Ok(Flow::Next),
-            Step::For { name, range, body } => return self.repeat(*name, range, body),
-            Step::If { body, .. } => return self.block(body),
+            Step::For { name, range } => return self.repeat(*name, range, &blocks[0]),
+            Step::Block => return self.block(&blocks[0]),
             Step::Break => return Ok(Flow::Break),
             Step::Continue => return Ok(Flow::Continue),
             Step::Assign { target, value } => {
@@ -158,9 +159,7 @@ impl Run<'_, '_, '_> {
 
     /// Returns whether the statement's condition is true; one without a condition always runs.
     fn admits(&mut self, statement: &Statement, held: &mut bool) -> Fallible<bool> {
-        let Some(condition) = statement.condition() else {
-            return Ok(true);
-        };
+        let Some(condition) = &statement.guard else { return Ok(true) };
         let truth = self.condition(condition)?;
         *held |= truth;
         if !truth && self.settings.last_if_is_zero {
@@ -249,8 +248,10 @@ impl Run<'_, '_, '_> {
     fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
         let [value] = values else { return None };
         let name = value.name()?;
-        let has_value = self.cells[name].value.is_some();
-        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(name))
+        match self.cells[name].value {
+            Some(_) => None,
+            None => self.sheet.range(self.listing.names.name(name)),
+        }
     }
 
     /// Returns what a loop runs over: a value, or the entries of several as one column.
@@ -512,25 +513,12 @@ impl Run<'_, '_, '_> {
     }
 
     fn array(&mut self, entries: &[Expr], cols: usize) -> Fallible<Value> {
-        let rows = entries.len() / cols;
-        let mut numbers = Vec::with_capacity(entries.len());
-        for (k, entry) in entries.iter().enumerate() {
-            match self.eval(entry)? {
-                Value::Number(x) => numbers.push(x),
-                other => {
-                    let mut values: Vec<_> = numbers.into_iter().map(Value::Number).collect();
-                    values.push(other);
-                    values.extend(self.held(&entries[k + 1..], Self::eval)?);
-                    self.afford(values.iter().map(Value::count).sum())?;
-                    let depth = values.iter().map(Value::depth).max().unwrap_or(0);
-                    self.check_nesting(depth)?;
-                    return Ok(Value::grid(Grid::from_fn(rows, cols, |i, j| {
-                        values[i * cols + j].clone()
-                    })));
-                }
-            }
+        let values = self.held(entries, Self::eval)?;
+        if values.iter().any(|value| value.number().is_none()) {
+            self.afford(values.iter().map(Value::count).sum())?;
+            self.check_nesting(values.iter().map(Value::depth).max().unwrap_or(0))?;
         }
-        Ok(Array::from_rows(cols, numbers).into())
+        Ok(Value::grid(Grid::from_rows(cols, values)))
     }
 
     /// Returns a matrix to a whole power by repeated squaring, the smallest square on the right.
@@ -662,12 +650,13 @@ impl Run<'_, '_, '_> {
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
     /// evaluating `∧`: one that is `decisive` decides alone.
     /// ```
-    /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings};
+    /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings, Sheet};
     /// let listing = Listing::parse("f", "f(v) :=\n  v[1] > 1 ∧ v[0] > 1").unwrap();
     /// let v = plane_contact_mathcad::evaluate("(1; 2)").unwrap();
     /// let under = |conjunction| {
     ///     let settings = Settings { conjunction, ..Settings::default() };
-    ///     listing.runner(&settings, &Limits::default()).call(&[v.clone()]).is_ok()
+    ///     let sheet = Sheet::default();
+    ///     listing.runner(&sheet, &settings, &Limits::default()).call(&[v.clone()]).is_ok()
     /// };
     /// // The first operand is false, and v has no entry 0.
     /// let methods = [Conjunction::Guarded, Conjunction::LeftToRight, Conjunction::Eager];
@@ -712,11 +701,10 @@ impl Run<'_, '_, '_> {
 
     /// Returns the value of the function that the name `slot` stands for.
     fn call(&mut self, slot: Slot, arguments: &[Value]) -> Fallible<Value> {
-        let builtin = match &mut self.functions[slot] {
+        let builtin = match &self.functions[slot] {
             None => return Err(self.undefined(slot, true).into()),
             Some(Function::Program(program)) => {
-                let program = program.clone();
-                return self.call_program(&program, arguments);
+                return self.call_program(&program.clone(), arguments);
             }
             Some(Function::Outside(function)) => {
                 let name = self.listing.names.name(slot);
@@ -758,32 +746,11 @@ impl Run<'_, '_, '_> {
         }
         // Each name is looked up in the worksheet.
         self.spend(16 + 8 * program.names.len() as u64)?;
-        let names = || program.names.all();
-        let sheet = defined.above.as_deref().or(self.sheet);
-        let value = |name| sheet.and_then(|sheet| sheet.value(name));
-        // Its own name is itself where nothing above it has that name.
-        let function = |name| {
-            let itself =
-                || (name == program.function()).then(|| Function::Program(defined.clone()));
-            Function::named(sheet, name).or_else(itself)
-        };
-        let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
-        let mut functions: Vec<_> = names().map(function).collect();
-        let run = Run {
-            listing: program,
-            sheet,
-            settings: self.settings,
-            limits: self.limits,
-            cells,
-            functions: &mut functions,
-            recorder: None,
-            line: 0,
-            spent: self.spent,
-            stored: self.stored,
-            depth,
-            last: None,
-            trace: vec![],
-        };
+        let sheet = defined.above.as_deref().unwrap_or(self.sheet);
+        let mut run = Run::new(program, sheet, self.settings, self.limits, self.spent);
+        (run.stored, run.depth) = (self.stored, depth);
+        // Its own name, the first, is itself where nothing above it has that name.
+        run.functions[0].get_or_insert_with(|| Function::Program(defined.clone()));
         let outcome = run.run(arguments)?;
         self.trace.extend(outcome.trace_output);
         Ok(outcome.value)

@@ -2,7 +2,7 @@
 //! indented.
 
 use super::failure::ParseError;
-use super::listing::Listing;
+use super::listing::{Line, Listing};
 use super::settings::Limits;
 
 /// Reads all listings of a file, in order; messages call the file `name`.
@@ -25,7 +25,8 @@ pub fn listings(name: &str, text: &str, limits: &Limits) -> Result<Vec<Listing>,
     }
     let lines: Vec<&str> = text.lines().collect();
     let ends = starts.iter().skip(1).copied().chain([lines.len()]);
-    let part =
-        |(&start, end): (&usize, usize)| Listing::parse_at(name, &lines[start..end], start, limits);
+    let part = |(&start, end): (&usize, usize)| {
+        Listing::from_lines(name, Line::all(&lines[start..end], start), limits)
+    };
     starts.iter().zip(ends).map(part).collect()
 }

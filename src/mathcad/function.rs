@@ -2,6 +2,7 @@
 //! that the caller defines.
 
 use std::ops::RangeInclusive;
+use std::rc::Rc;
 
 use super::arithmetic::{finite, fold, kind, map, sum};
 use super::failure::Cause;
@@ -11,15 +12,16 @@ use super::value::{Array, Value};
 use super::x87;
 use numbers::scalar::Scalar;
 
-pub enum Function<'l> {
+#[derive(Clone)]
+pub enum Function {
     Builtin(&'static Builtin),
     /// A function of the worksheet.
     Program(Defined),
-    Outside(Outside<'l>),
+    /// A function from outside: it returns its value, or why there is none.
+    Outside(Rc<Outside>),
 }
 
-/// A function from outside: it returns its value, or why there is none.
-pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
+pub type Outside = dyn Fn(&[Value]) -> Result<Value, String>;
 
 /// One of Mathcad's own functions.
 pub struct Builtin {
@@ -137,11 +139,10 @@ static BUILTINS: [Builtin; 46] = {
     ]
 };
 
-impl Function<'_> {
+impl Function {
     /// Returns the function that a name stands for: the worksheet's, or else Mathcad's own.
-    pub fn named(sheet: Option<&Sheet>, name: &str) -> Option<Self> {
-        let defined = sheet.and_then(|sheet| sheet.defined(name));
-        defined.cloned().map(Function::Program).or_else(|| Function::builtin(name))
+    pub fn named(sheet: &Sheet, name: &str) -> Option<Self> {
+        sheet.function(name).cloned().or_else(|| Function::builtin(name))
     }
 
     pub fn builtin(name: &str) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! Values as JSON: a number; a list of rows for an array; a string.
 
-use serde::ser::{Serialize, SerializeSeq, Serializer};
+use serde::ser::{Serialize, Serializer};
 use serde_json::Value as Json;
 
 use super::value::{Array, Grid, Value};
@@ -40,30 +40,14 @@ fn rows(list: &[Json]) -> Result<Value, String> {
 /// A value is written as JSON which [`read`] reads, entry by entry.
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (rows, _) = self.size();
+        let (rows, cols) = self.size();
         match self {
             Value::Number(x) => to.serialize_f64(*x),
             Value::Text(text) => to.serialize_str(text),
             Value::Array(_) | Value::Nested(_) => {
-                to.collect_seq((0..rows).map(|i| Row { array: self, i }))
+                let row = |i| (0..cols).filter_map(|j| self.entry(i, j)).collect::<Vec<_>>();
+                to.collect_seq((0..rows).map(row))
             }
         }
-    }
-}
-
-struct Row<'a> {
-    array: &'a Value,
-    i: usize,
-}
-
-impl Serialize for Row<'_> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (_, cols) = self.array.size();
-        let mut row = to.serialize_seq(Some(cols))?;
-        for j in 0..cols {
-            let entry = self.array.entry(self.i, j).unwrap_or_default();
-            row.serialize_element(&entry)?;
-        }
-        row.end()
     }
 }

@@ -2,11 +2,12 @@
 //! `listings/README.md`.
 //!
 //! ```
-//! use plane_contact_mathcad::{Limits, Listing, Settings, Value};
+//! use plane_contact_mathcad::{Limits, Listing, Settings, Sheet, Value};
 //!
 //! let text = "twice(x) :=\n  for i ∈ 1 .. rows(x)\n    y[i] ← 2·x[i]\n  y";
 //! let listing = Listing::parse("twice", text)?;
-//! let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+//! let sheet = Sheet::default();
+//! let mut worksheet = listing.runner(&sheet, &Settings::default(), &Limits::default());
 //! let x = plane_contact_mathcad::array::Column::from_vec(vec![1.5, 4.0]);
 //! let outcome = worksheet.call(&[Value::from(&x)])?;
 //! assert_eq!(outcome.value.to_string(), "3; 8");

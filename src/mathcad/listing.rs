@@ -33,8 +33,8 @@ pub struct Listing {
     pub parameters: Vec<Slot>,
     /// Its statements; loops and conditions contain theirs.
     pub program: Vec<Statement>,
-    /// Whether the program writes to the name of each slot.
-    pub(super) assigned: Vec<bool>,
+    /// What the program does with the name of each slot.
+    pub(super) used: Vec<Used>,
     /// How deep its blocks and expressions stand within each other.
     pub(super) depth: usize,
 }
@@ -48,38 +48,37 @@ fn without_remark(line: &str) -> &str {
 }
 
 /// What a program does with a name.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Use {
-    Read,
-    Called,
-    Written,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Used {
+    read: bool,
+    called: bool,
+    pub written: bool,
 }
 
-/// Hands over the names that statements use; the variables of the series around them, `bound`, are the
-/// series' own.
-fn uses(block: &[Statement], bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, Use)) {
+/// Notes what statements do with each name; the variables of the series around them, `bound`, are the series'
+/// own.
+fn note(block: &[Statement], bound: &mut Vec<Slot>, used: &mut [Used]) {
     for statement in block {
-        statement.step.written().into_iter().for_each(|slot| used(slot, Use::Written));
-        statement.on_line().into_iter().for_each(|expr| uses_within(expr, bound, used));
-        statement.step.blocks().into_iter().for_each(|block| uses(block, bound, used));
+        statement.step.written().into_iter().for_each(|slot| used[slot].written = true);
+        statement.on_line().into_iter().for_each(|expr| note_within(expr, bound, used));
+        statement.blocks.iter().for_each(|block| note(block, bound, used));
     }
 }
 
-fn uses_within(expr: &Expr, bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, Use)) {
+fn note_within(expr: &Expr, bound: &mut Vec<Slot>, used: &mut [Used]) {
     let depth = bound.len();
     match &expr.kind {
-        Kind::Name(name) if bound.contains(name) => {}
-        Kind::Name(name) => used(*name, Use::Read),
-        Kind::Call(name) => used(*name, Use::Called),
+        Kind::Name(name) => used[*name].read |= !bound.contains(name),
+        Kind::Call(name) => used[*name].called = true,
         Kind::Series { function, name } => {
-            used(*function, Use::Called);
+            used[*function].called = true;
             bound.push(*name);
         }
-        Kind::Program(block) => uses(block, bound, used),
+        Kind::Program(block) => note(block, bound, used),
         Kind::Literal(_) | Kind::Group | Kind::Array { .. } => {}
         Kind::Apply(_) | Kind::Chain(_) | Kind::If => {}
     }
-    expr.parts.iter().for_each(|part| uses_within(part, bound, used));
+    expr.parts.iter().for_each(|part| note_within(part, bound, used));
     bound.truncate(depth);
 }
 
@@ -100,17 +99,7 @@ impl Listing {
     /// Names the first place at which the text leaves the notation, or the limit that it
     /// exceeds.
     pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
-        Self::parse_at(name, &text.lines().collect::<Vec<_>>(), 0, limits)
-    }
-
-    /// Reads a listing from lines of a file, before which so many others stand.
-    pub(super) fn parse_at(
-        name: &str,
-        lines: &[&str],
-        before: usize,
-        limits: &Limits,
-    ) -> Result<Self, ParseError> {
-        Self::from_lines(name, Line::all(lines, before), limits)
+        Self::from_lines(name, Line::all(&text.lines().collect::<Vec<_>>(), 0), limits)
     }
 
     /// Reads a listing from its lines, the first being its header, under limits of the caller's.
@@ -132,11 +121,11 @@ impl Listing {
             return reader.refuse(line, message);
         }
         let names = reader.names;
-        let mut assigned = vec![false; names.len()];
-        uses(&program, &mut vec![], &mut |slot, how| assigned[slot] |= how == Use::Written);
+        let mut used = vec![Used::default(); names.len()];
+        note(&program, &mut vec![], &mut used);
         let depth = program.iter().map(|statement| statement.depth(usize::MAX)).max().unwrap_or(0);
         let name = name.into();
-        Ok(Listing { name, names, parameters, program, lines, assigned, depth })
+        Ok(Listing { name, names, parameters, program, lines, used, depth })
     }
 
     /// Returns the listing's name, as its header has it.
@@ -152,23 +141,17 @@ impl Listing {
     /// Returns the names that the program takes from its worksheet: those that it reads or calls,
     /// and neither receives nor writes to.
     pub fn free_names(&self) -> Vec<&str> {
-        let is_own = |name: &&str| {
-            let slot = self.names.find(name).expect("it is one of its names");
-            self.assigned[slot] || self.parameters.contains(&slot)
+        let is_free = |(slot, used): &(Slot, &Used)| {
+            (used.read || used.called) && !used.written && !self.parameters.contains(slot)
         };
-        let mut used = vec![false; self.names.len()];
-        uses(&self.program, &mut vec![], &mut |slot, how| used[slot] |= how != Use::Written);
-        let used = self.names.all().zip(used).filter(|(_, used)| *used);
-        used.map(|(name, _)| name).filter(|name| !is_own(name)).collect()
+        let free = self.used.iter().enumerate().filter(is_free);
+        free.map(|(slot, _)| self.names.name(slot)).collect()
     }
 
     /// Returns whether the program calls a function of that name.
     #[cfg(feature = "files")]
     pub(super) fn calls(&self, name: &str) -> bool {
-        let (slot, mut is_called) = (self.names.find(name), false);
-        let mut used = |used, how| is_called |= how == Use::Called && Some(used) == slot;
-        uses(&self.program, &mut vec![], &mut used);
-        is_called
+        self.names.find(name).is_some_and(|slot| self.used[slot].called)
     }
 
     /// Returns the lines, those that are a remark alone left out.
@@ -235,7 +218,7 @@ impl Reader<'_> {
         }
         let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
         self.check_depth(line, &body)?;
-        if !body.step.blocks().is_empty() || matches!(body.step, Step::Break | Step::Continue) {
+        if !body.blocks.is_empty() || matches!(body.step, Step::Break | Step::Continue) {
             return self.refuse(line, "found a block behind `:=`, expected it indented below");
         }
         Ok((parameters, Some(body)))
@@ -259,7 +242,7 @@ impl Reader<'_> {
             let mut statement = statement.map_err(|complaint| self.error(line, complaint))?;
             self.check_depth(line, &statement)?;
             self.next += 1;
-            for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
+            for (k, body) in statement.blocks.iter_mut().enumerate() {
                 // Between the two blocks of `try`.
                 if k > 0 {
                     let other = self.lines.get(self.next);
@@ -304,7 +287,7 @@ impl Reader<'_> {
         let limit = self.limits.depth;
         let deep = |expr: &&Expr| expr.depth(limit + 1) > limit;
         // What stands on the line: `x otherwise` has it in its block.
-        let inside = statement.step.blocks().into_iter().flatten().flat_map(Statement::on_line);
+        let inside = statement.blocks.iter().flatten().flat_map(Statement::on_line);
         match statement.on_line().into_iter().chain(inside).find(deep) {
             Some(expr) => {
                 let message = format!("found operators and brackets more than {limit} deep");

@@ -135,12 +135,12 @@ impl<'t> Parser<'t> {
             "for" => {
                 let name = self.name()?;
                 self.need("∈")?;
-                Step::For { name, range: self.range()?, body: vec![] }
+                Step::For { name, range: self.range()? }
             }
-            "while" => Step::While { condition: self.expression()?, body: vec![] },
-            "if" => Step::If { condition: self.expression()?, body: vec![] },
-            "otherwise" => Step::Otherwise { body: vec![] },
-            "try" => Step::Try { body: vec![], fallback: vec![] },
+            "while" => Step::While { condition: self.expression()? },
+            "if" => Step::Block,
+            "otherwise" => Step::Otherwise,
+            "try" => Step::Try,
             "return" => Step::Return { value: self.expression()? },
             "break" => Step::Break,
             "continue" => Step::Continue,
@@ -149,18 +149,27 @@ impl<'t> Parser<'t> {
                 self.assignment()?
             }
         };
-        if matches!(word, "while" | "if" | "otherwise" | "try") {
-            return Ok(Statement { line, step, guard: None });
+        let blocks = vec![vec![]; step.blocks()];
+        let is_guarded = match step {
+            Step::Block => true,
+            Step::While { .. } | Step::Otherwise | Step::Try => false,
+            Step::For { .. }
+            | Step::Assign { .. }
+            | Step::Evaluate { .. }
+            | Step::Return { .. }
+            | Step::Break
+            | Step::Continue => self.takes("if"),
+        };
+        let guard = if is_guarded { Some(self.expression()?) } else { None };
+        let statement = Statement { line, step, blocks, guard };
+        if !statement.blocks.is_empty() || !self.takes("otherwise") {
+            return Ok(statement);
         }
-        let guard = if self.takes("if") { Some(self.expression()?) } else { None };
-        if word == "for" || !self.takes("otherwise") {
-            return Ok(Statement { line, step, guard });
-        }
-        if guard.is_some() {
+        if statement.guard.is_some() {
             return Err((start, "found `if` and `otherwise` on one line".into()));
         }
-        let body = vec![Statement { line, step, guard }];
-        Ok(Statement { line, step: Step::Otherwise { body }, guard: None })
+        let blocks = vec![vec![statement]];
+        Ok(Statement { line, step: Step::Otherwise, blocks, guard: None })
     }
 
     /// Reads an assignment, or a value alone.
@@ -182,10 +191,8 @@ impl<'t> Parser<'t> {
         let mut block = vec![];
         loop {
             let mut statement = self.statement()?;
-            for body in statement.step.blocks_mut() {
-                if body.is_empty() {
-                    *body = self.inner()?;
-                }
+            for body in statement.blocks.iter_mut().filter(|body| body.is_empty()) {
+                *body = self.inner()?;
             }
             block.push(statement);
             if self.takes("}") {

@@ -15,7 +15,7 @@ use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
 use super::syntax::{Slot, Span};
 use super::unsupported;
-use super::value::{Array, Grid, Nested, Value};
+use super::value::{Array, Value};
 
 /// A name's value, and whether the program wrote it.
 pub struct Variable {
@@ -34,14 +34,14 @@ pub struct Ended {
     pub trace_output: Vec<String>,
 }
 
-pub struct Run<'r, 'l, 'f> {
+pub struct Run<'r, 'f> {
     pub listing: &'r Listing,
-    /// The worksheet in which the functions that are called stand, if it defines any.
-    pub sheet: Option<&'r Sheet>,
+    /// The worksheet in which the functions that are called stand.
+    pub sheet: &'r Sheet,
     pub settings: &'r Settings,
     pub limits: &'r Limits,
     pub cells: Vec<Variable>,
-    pub functions: &'r mut [Option<Function<'l>>],
+    pub functions: Vec<Option<Function>>,
     pub recorder: Option<&'r mut Recorder<'f>>,
     /// The current line, counted from 0 through the listing's lines.
     pub line: usize,
@@ -57,7 +57,35 @@ pub struct Run<'r, 'l, 'f> {
     pub trace: Vec<String>,
 }
 
-impl<'r> Run<'r, '_, '_> {
+impl<'r> Run<'r, '_> {
+    /// Makes the run of a listing, whose names are those of the sheet.
+    pub fn new(
+        listing: &'r Listing,
+        sheet: &'r Sheet,
+        settings: &'r Settings,
+        limits: &'r Limits,
+        spent: &'r Cell<u64>,
+    ) -> Self {
+        let names = || listing.names.all();
+        Run {
+            listing,
+            sheet,
+            settings,
+            limits,
+            cells: names()
+                .map(|name| Variable { value: sheet.value(name), local: false })
+                .collect(),
+            functions: names().map(|name| Function::named(sheet, name)).collect(),
+            recorder: None,
+            line: 0,
+            spent,
+            stored: 0,
+            depth: listing.depth,
+            last: None,
+            trace: vec![],
+        }
+    }
+
     /// Counts `steps` against the limit.
     pub fn spend(&self, steps: u64) -> Fallible<()> {
         let spent = self.spent.get().saturating_add(steps);
@@ -126,15 +154,13 @@ impl<'r> Run<'r, '_, '_> {
     /// Returns why a name has no value, or, where it is `called`, is no function.
     pub fn undefined(&self, slot: Slot, called: bool) -> Cause {
         let name = self.listing.names.name(slot);
-        let is_range = self.sheet.is_some_and(|sheet| sheet.range(name).is_some());
-        let is_program = self.sheet.is_some_and(|sheet| sheet.program(name).is_some());
         let construct = if called && unsupported::is_function(name) {
             format!("the function {name}")
-        } else if is_range {
+        } else if self.sheet.range(name).is_some() {
             format!("a range variable in an expression ({name})")
         } else if called {
             return Cause::Undefined { name: name.into() };
-        } else if unsupported::is_unit(name) && !is_program {
+        } else if unsupported::is_unit(name) && self.sheet.program(name).is_none() {
             format!("units: {name}")
         } else if self.functions[slot].is_some() {
             format!("a function as a value ({name})")
@@ -153,8 +179,8 @@ impl<'r> Run<'r, '_, '_> {
                 matrices::entry(value, subscripts, self.settings.origin, &name)?
             }
             // A local name without a value is 0.
-            (None, None) if self.listing.assigned[slot] => Value::default(),
-            (None, Some(_)) if self.listing.assigned[slot] => {
+            (None, None) if self.listing.used[slot].written => Value::default(),
+            (None, Some(_)) if self.listing.used[slot].written => {
                 return Err(kind("an array", &Value::default()).into());
             }
             (None, _) => return Err(self.undefined(slot, false).into()),
@@ -177,69 +203,40 @@ impl<'r> Run<'r, '_, '_> {
         Ok(())
     }
 
-    /// Writes a value to an entry, and makes the array larger where it does not reach so far. By a
-    /// value that is no number an array of numbers becomes one of arrays.
+    /// Writes a value to an entry, as [`Value::write`]. A name that holds no array becomes an empty one.
     pub fn write(&mut self, target: Slot, subscripts: Subscripts, value: Value) -> Fallible<()> {
         self.check_nesting(value.depth())?;
         let name = || self.listing.names.name(target).into();
         let (i, j) = matrices::offsets(subscripts, self.settings.origin, &name)?;
-        self.prepare(target, subscripts, (i, j), value.count())?;
-        let cell = &mut self.cells[target];
-        cell.local = true;
-        if let (Some(Value::Array(array)), Value::Number(x)) = (&mut cell.value, &value) {
-            let array = Rc::make_mut(array);
-            if array.get(i, j).is_none() {
-                array.grow(i, j);
-            }
-            array.set(i, j, *x);
-        } else {
-            // Of numbers it becomes one of arrays.
-            if let Some(Value::Array(a)) = &cell.value {
-                let grid = Grid::from_fn(a.rows(), a.cols(), |i, j| Value::Number(*a.at(i, j)));
-                cell.value = Some(Value::Nested(Rc::new(Nested::new(grid))));
-            }
-            if let Some(Value::Nested(nested)) = &mut cell.value {
-                let nested = Rc::make_mut(nested);
-                self.stored -= nested.count() + nested.grid().missing(i, j);
-                nested.write(i, j, value.clone());
-                self.stored += nested.count();
-            }
-        }
-        self.record_write(target, Some(subscripts), &value);
-        Ok(())
-    }
-
-    /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes
-    /// an empty one.
-    fn prepare(
-        &mut self,
-        target: Slot,
-        subscripts: Subscripts,
-        (i, j): (usize, usize),
-        count: usize,
-    ) -> Fallible<()> {
         let cell = &mut self.cells[target].value;
-        let value = cell.get_or_insert_with(|| Array::default().into());
-        if let Value::Number(_) | Value::Text(_) = value {
-            self.stored -= value.count();
-            *value = Array::default().into();
+        let held = cell.get_or_insert_with(|| Array::default().into());
+        if let Value::Number(_) | Value::Text(_) = held {
+            self.stored -= held.count();
+            *held = Array::default().into();
         }
-        let (rows, cols) = value.size();
+        let (rows, cols) = held.size();
         if subscripts.col.is_none() && cols > 1 {
             let name = self.listing.names.name(target).into();
             return Err(Cause::IndexOutside { name, subscripts, rows, cols }.into());
         }
-        let (more, shared) = match value {
+        let (more, shared) = match held {
             Value::Array(array) => (array.missing(i, j), Rc::strong_count(array) > 1),
             Value::Nested(nested) => (nested.grid().missing(i, j), true),
             Value::Number(_) | Value::Text(_) => unreachable!("it became an array above"),
         };
-        let held = rows * cols;
-        let copied = if shared { held } else { 0 };
-        let moved = if more > 0 && j >= cols { held } else { 0 };
-        self.room(more.saturating_add(count - 1))?;
-        self.stored += more;
-        self.spend((copied + moved + more) as u64)
+        let copied = if shared { rows * cols } else { 0 };
+        let moved = if more > 0 && j >= cols { rows * cols } else { 0 };
+        self.room(more.saturating_add(value.count()).saturating_sub(1))?;
+        self.spend((copied + moved + more) as u64)?;
+        self.record_write(target, Some(subscripts), &value);
+        let cell = &mut self.cells[target];
+        cell.local = true;
+        if let Some(held) = &mut cell.value {
+            self.stored -= held.count();
+            held.write(i, j, value);
+            self.stored += held.count();
+        }
+        Ok(())
     }
 
     fn record_write(&mut self, slot: Slot, subscripts: Option<Subscripts>, value: &Value) {

@@ -17,7 +17,9 @@ pub struct Statement {
     pub line: usize,
     /// What it does.
     pub step: Step,
-    /// The condition behind `if` on its own line; that of a loop stands for the whole loop.
+    /// As many blocks as [`Step::blocks`] says.
+    pub blocks: Vec<Vec<Statement>>,
+    /// The condition that decides whether it is executed, behind `if`; that of a loop stands for the whole loop.
     pub guard: Option<Expr>,
 }
 
@@ -25,16 +27,16 @@ pub struct Statement {
 #[derive(Clone, Debug)]
 #[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Step {
-    /// `for name ∈ range`; the variable keeps its last value.
-    For { name: Slot, range: Range, body: Vec<Statement> },
+    /// `for name ∈ range` and a block; the variable keeps its last value.
+    For { name: Slot, range: Range },
     /// `while condition` and a block.
-    While { condition: Expr, body: Vec<Statement> },
-    /// `if condition` and a block.
-    If { condition: Expr, body: Vec<Statement> },
+    While { condition: Expr },
+    /// The block below `if condition`.
+    Block,
     /// `otherwise` and a block, which runs if no `if` above it in its block was true.
-    Otherwise { body: Vec<Statement> },
+    Otherwise,
     /// `try` and a block, then `on error` and a block, which runs if the first one fails.
-    Try { body: Vec<Statement>, fallback: Vec<Statement> },
+    Try,
     /// `target ← value`; the target has [`Expr::targets`].
     Assign { target: Expr, value: Expr },
     /// An expression alone.
@@ -219,20 +221,12 @@ impl Statement {
     pub fn on_line(&self) -> Vec<&Expr> {
         let own: Vec<&Expr> = match &self.step {
             Step::For { range, .. } => range.values.iter().chain(&range.to).collect(),
-            Step::While { condition, .. } | Step::If { condition, .. } => vec![condition],
+            Step::While { condition } => vec![condition],
             Step::Assign { target, value } => target.subscripts().iter().chain([value]).collect(),
             Step::Evaluate { value } | Step::Return { value } => vec![value],
-            Step::Otherwise { .. } | Step::Try { .. } | Step::Break | Step::Continue => vec![],
+            Step::Block | Step::Otherwise | Step::Try | Step::Break | Step::Continue => vec![],
         };
         own.into_iter().chain(&self.guard).collect()
-    }
-
-    /// Returns the condition that decides whether the statement is executed, if it has one.
-    pub fn condition(&self) -> Option<&Expr> {
-        if let Step::If { condition, .. } = &self.step {
-            return Some(condition);
-        }
-        self.guard.as_ref()
     }
 
     /// Returns how deep statements and expressions stand within each other, at most `limit`.
@@ -241,38 +235,20 @@ impl Statement {
             return 0;
         }
         let own = self.on_line().into_iter().map(|expr| expr.depth(limit - 1));
-        let below = self.step.blocks().into_iter().flatten().map(|below| below.depth(limit - 1));
+        let below = self.blocks.iter().flatten().map(|below| below.depth(limit - 1));
         1 + own.chain(below).max().unwrap_or(0)
     }
 }
 
-/// The blocks below a statement, as they are held or to be written.
-macro_rules! blocks {
-    ($step:expr) => {
-        match $step {
-            Step::For { body, .. }
-            | Step::While { body, .. }
-            | Step::If { body, .. }
-            | Step::Otherwise { body } => vec![body],
-            Step::Try { body, fallback } => vec![body, fallback],
-            Step::Assign { .. }
-            | Step::Evaluate { .. }
-            | Step::Return { .. }
-            | Step::Break
-            | Step::Continue => vec![],
-        }
-    };
-}
-
 impl Step {
-    /// Returns the blocks below the statement.
-    pub fn blocks(&self) -> Vec<&Vec<Statement>> {
-        blocks!(self)
-    }
-
-    /// Returns the same to be written.
-    pub fn blocks_mut(&mut self) -> Vec<&mut Vec<Statement>> {
-        blocks!(self)
+    /// Returns how many blocks stand below it.
+    pub fn blocks(&self) -> usize {
+        match self {
+            Step::For { .. } | Step::While { .. } | Step::Block | Step::Otherwise => 1,
+            Step::Try => 2,
+            Step::Assign { .. } | Step::Evaluate { .. } | Step::Return { .. } => 0,
+            Step::Break | Step::Continue => 0,
+        }
     }
 
     /// Returns the names that the statement itself writes to.
@@ -280,14 +256,8 @@ impl Step {
         match self {
             Step::For { name, .. } => vec![*name],
             Step::Assign { target, .. } => target.targets().unwrap_or_default(),
-            Step::While { .. }
-            | Step::If { .. }
-            | Step::Otherwise { .. }
-            | Step::Try { .. }
-            | Step::Evaluate { .. }
-            | Step::Return { .. }
-            | Step::Break
-            | Step::Continue => vec![],
+            Step::While { .. } | Step::Block | Step::Otherwise | Step::Try => vec![],
+            Step::Evaluate { .. } | Step::Return { .. } | Step::Break | Step::Continue => vec![],
         }
     }
 }

@@ -97,13 +97,16 @@ impl<T: Clone + Default> Grid<T> {
         &self.blocks[k / BLOCK][k % BLOCK]
     }
 
-    /// Writes an entry that [`Grid::get`] finds, and returns the old one.
-    pub fn set(&mut self, i: usize, j: usize, value: T) -> T {
+    /// Writes an entry, and makes the array larger where it does not reach so far; returns the old one.
+    pub fn write(&mut self, i: usize, j: usize, value: T) -> T {
+        if self.get(i, j).is_none() {
+            self.grow(i, j);
+        }
         let k = i * self.cols + j;
         std::mem::replace(&mut Rc::make_mut(&mut self.blocks[k / BLOCK])[k % BLOCK], value)
     }
 
-    /// Returns how many entries [`Grid::grow`] would add.
+    /// Returns how many entries [`Grid::write`] would add.
     pub fn missing(&self, i: usize, j: usize) -> usize {
         if i < self.rows && j < self.cols {
             return 0;
@@ -113,7 +116,7 @@ impl<T: Clone + Default> Grid<T> {
     }
 
     /// Makes room for row `i` and column `j`, from 0; new entries are 0.
-    pub fn grow(&mut self, i: usize, j: usize) {
+    fn grow(&mut self, i: usize, j: usize) {
         let (rows, cols) = (self.rows.max(i + 1), self.cols.max(j + 1));
         if cols != self.cols {
             let entry = |i, j| self.get(i, j).cloned().unwrap_or_default();
@@ -128,11 +131,6 @@ impl<T: Clone + Default> Grid<T> {
         }
         self.blocks.extend(blocks(vec![T::default(); missing]));
         self.rows = rows;
-    }
-
-    /// Makes a row a column, or a column a row.
-    pub fn turn(&mut self) {
-        std::mem::swap(&mut self.rows, &mut self.cols);
     }
 
     /// Returns the array with rows and columns exchanged.
@@ -214,12 +212,9 @@ impl Nested {
     /// Writes an entry, and makes the array larger where it does not reach so far.
     pub fn write(&mut self, i: usize, j: usize, value: Value) {
         self.count += self.grid.missing(i, j);
-        if self.grid.get(i, j).is_none() {
-            self.grid.grow(i, j);
-        }
         self.depth = self.depth.max(1 + value.depth());
         let new = value.count();
-        let old = self.grid.set(i, j, value);
+        let old = self.grid.write(i, j, value);
         self.count = self.count + new - old.count();
     }
 }
@@ -264,6 +259,23 @@ impl Value {
             Value::Array(a) => a.get(i, j).copied().map(Value::Number),
             Value::Nested(v) => v.grid.get(i, j).cloned(),
             Value::Number(_) | Value::Text(_) => None,
+        }
+    }
+
+    /// Writes an entry of an array, and makes it larger where it does not reach so far. By a value that is no
+    /// number an array of numbers becomes one of arrays.
+    pub fn write(&mut self, i: usize, j: usize, value: Value) {
+        match (self, value) {
+            (Value::Array(array), Value::Number(x)) => drop(Rc::make_mut(array).write(i, j, x)),
+            (Value::Nested(nested), value) => Rc::make_mut(nested).write(i, j, value),
+            (held @ Value::Array(_), value) => {
+                let (rows, cols) = held.size();
+                let entry = |i, j| held.entry(i, j).unwrap_or_default();
+                let mut nested = Nested::new(Grid::from_fn(rows, cols, entry));
+                nested.write(i, j, value);
+                *held = Value::Nested(Rc::new(nested));
+            }
+            (Value::Number(_) | Value::Text(_), _) => unreachable!("no array"),
         }
     }
 

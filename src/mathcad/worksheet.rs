@@ -398,7 +398,7 @@ impl Execution<'_> {
         let program = self.parse(&format!("_() :=\n{}", lines.join("\n")))?;
         self.trace_names(&program, inputs)?;
         let limits = Limits { steps: self.steps.get() / 2, ..self.limits.clone() };
-        let mut runner = program.runner_in(&self.sheet, &self.settings, &limits);
+        let mut runner = program.runner(&self.sheet, &self.settings, &limits);
         let ended = runner.call(&[]);
         self.steps.set(self.steps.get().saturating_sub(runner.steps()));
         ended.map(|ended| ended.value).map_err(|failure| match failure.cause {

@@ -267,7 +267,7 @@ impl Once {
     /// what iterations change.
     fn value(&self, edits: &[&str], sheet: &Sheet) -> Option<Value> {
         let alone = edited(self.program, &[&[self.alone], edits].concat())?;
-        let mut runner = alone.runner_in(sheet, &Settings::default(), &limits());
+        let mut runner = alone.runner(sheet, &Settings::default(), &limits());
         let mut value = runner.call(&[]).ok()?.value;
         if let Value::Array(array) = &mut value {
             Rc::make_mut(array).share_zeros();
@@ -353,7 +353,7 @@ fn ending(
     main: &Listing,
     steps: usize,
 ) -> Result<Ending, Box<Failure>> {
-    let mut runner = main.runner_in(sheet, &Settings::default(), &limits());
+    let mut runner = main.runner(sheet, &Settings::default(), &limits());
     let outcome = runner.call(&[Value::from(steps)])?;
     let local = |name: &str| &outcome.locals[name];
     let column = |value| Column::<f64>::try_from(value).expect("a column");

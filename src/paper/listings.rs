@@ -7,7 +7,8 @@ use base::choices;
 use mathcad::array::{Column, Table};
 use mathcad::failure::Fallible;
 use mathcad::{
-    Array, Cause, Edit, Ended, Failure, Limits, Listing, Recorder, Settings, Value, name_length,
+    Array, Cause, Edit, Ended, Failure, Limits, Listing, Recorder, Settings, Sheet, Value,
+    name_length,
 };
 use problem::element::{self, Plane};
 
@@ -110,20 +111,21 @@ pub(crate) fn execute(
     recorder: Option<&mut Recorder<'_>>,
 ) -> (Fallible<Ended>, u64) {
     let limits = Limits { steps: steps(sheet), entries: 1 << 27, ..Limits::default() };
-    let mut runner = listing.runner(settings, &limits);
+    let mut above = Sheet::empty();
     for (name, value) in tables(sheet) {
-        runner.define(name, value);
+        above.define(name, value);
     }
     // ν, where a listing is typed in ASCII.
-    runner.define("nu", Value::from(&sheet.nu));
+    above.define("nu", Value::from(&sheet.nu));
     let plane = sheet.plane;
-    runner.define_function("D", move |arguments| match arguments {
+    above.define_function("D", move |arguments| match arguments {
         [Value::Number(e), Value::Number(nu)] => {
             let d = element::D(plane, *e, *nu);
             Ok(Array::from_fn(3, 3, |i, j| d[(i, j)]).into())
         }
         _ => Err("D takes an elastic modulus and a Poisson's ratio".into()),
     });
+    let mut runner = listing.runner(&above, settings, &limits);
     let outcome = runner.call_recorded(&[argument], recorder);
     (outcome, runner.steps())
 }

@@ -26,8 +26,7 @@ use problem::scene::file::SCENE;
 use problem::scene::{SceneBuilder, SceneFile, sha256, sha256_of};
 
 /// Files of sweeps.
-const SWEEP: Kind =
-    Kind { name: "sweep", fix: "see `plane-contact sweep --help`", has_values: true };
+const SWEEP: Kind = Kind { name: "sweep", fix: "see `plane-contact sweep --help`" };
 
 /// The version of the format.
 const FORMAT: u32 = 1;

@@ -69,7 +69,7 @@ impl Case {
         let Case { listing, around, settings, arguments } = self;
         match around {
             Around::Sheet(_, sheet) => listing
-                .runner_in(
+                .runner(
                     sheet,
                     settings,
                     &Limits { steps: 1 << 22, entries: 1 << 20, ..Limits::default() },

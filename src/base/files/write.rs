@@ -109,7 +109,7 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
 /// There is a link, a device, a folder, a file that this run reads, or one without the mark.
 pub fn check_file(path: &Path, mark: &str) -> Result<()> {
     let check = || {
-        no_way_elsewhere(path)?;
+        no_way_elsewhere(path, path.parent().unwrap_or(path))?;
         match is_there(path)? && !has_mark(path, mark)? {
             true => Err(foreign_file("it")),
             false => Ok(()),
@@ -131,16 +131,12 @@ pub fn is_same_place(a: &Path, b: &Path) -> bool {
     place(a) == place(b)
 }
 
-/// Refuses a hyphen, by which others name standard output.
-fn no_hyphen(path: &Path) -> io::Result<()> {
-    match path == Path::new("-") {
-        true => Err(io::Error::other("a hyphen is no name here; a file of that name is ./-")),
-        false => Ok(()),
+/// Refuses a path that leads to another place than it says: a hyphen, by which others name standard output, and
+/// one to whose `folder` a link below the current one leads. An absolute path may lead through links.
+fn no_way_elsewhere(path: &Path, folder: &Path) -> io::Result<()> {
+    if path == Path::new("-") {
+        return Err(io::Error::other("a hyphen is no name here; a file of that name is ./-"));
     }
-}
-
-/// Refuses a folder that a link below the current one leads to. An absolute path may lead through links.
-fn no_link(folder: &Path) -> io::Result<()> {
     match folder.ancestors().find(|way| folder.is_relative() && way.is_symlink()) {
         Some(link) => {
             let why = "is a link: name the folder that it leads to by its absolute path";
@@ -150,19 +146,13 @@ fn no_link(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Refuses a path that leads to another place than it says.
-fn no_way_elsewhere(path: &Path) -> io::Result<()> {
-    no_hyphen(path)?;
-    no_link(path.parent().unwrap_or(path))
-}
-
 /// Checks that `path` is a place for a new file, before its content is computed; a file may be there.
 ///
 /// # Errors
 /// There is a link, a device or a folder.
 pub fn check_new(path: &Path) -> Result<()> {
-    let checked = no_way_elsewhere(path).and_then(|()| ordinary(path));
-    checked.map(drop).map_err(|why| unwritable(path, &why))
+    let checked = no_way_elsewhere(path, path.parent().unwrap_or(path));
+    checked.and_then(|()| ordinary(path)).map(drop).map_err(|why| unwritable(path, &why))
 }
 
 /// Writes `content` to a new file at `path`, and creates its folder where it is missing; returns whether
@@ -244,8 +234,7 @@ pub fn check_folder<N: AsRef<str>>(folder: &Path, names: &[N]) -> Result<()> {
 /// Returns those of the names whose files are in `folder` already and are not known to be from this
 /// program.
 fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
-    no_hyphen(folder)?;
-    no_link(folder)?;
+    no_way_elsewhere(folder, folder)?;
     if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
         let why = format!("{} is a file", shown(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, why));

@@ -43,8 +43,7 @@ pub fn counts() -> [usize; 3] {
         let limits = Limits { characters: 10_000, ..Limits::default() };
         let listing = Listing::parse_within("figure", &text, &limits)
             .unwrap_or_else(|error| panic!("{}: {error}", case["source"]));
-        let run =
-            listing.runner_in(&sheet, &settings.parse().expect("settings"), &limits).call(&[]);
+        let run = listing.runner(&sheet, &settings.parse().expect("settings"), &limits).call(&[]);
         let ours = run.unwrap_or_else(|failure| panic!("{}: {failure}", case["source"])).value;
         let mut expected = vec![];
         numbers(&case["saved"], &mut expected);

@@ -27,11 +27,12 @@ fn limits_hold() {
             Ok(listing) => listing,
             Err(why) => return format!("is not read: {}", why.message),
         };
-        let mut worksheet = listing.runner(&Settings::default(), &limits);
+        let mut worksheet = Sheet::empty();
         if under.starts_with('v') {
             worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
         }
-        match worksheet.call(&[Value::Number(5.0)]) {
+        match listing.runner(&worksheet, &Settings::default(), &limits).call(&[Value::Number(5.0)])
+        {
             Ok(ended) => match ended.value.number() {
                 Some(x) => format!("ends with {x}"),
                 None => "ends".into(),
@@ -97,8 +98,9 @@ fn eigenvalues_count_their_eliminations() {
         let listing = program(&format!("{function}(identity(8))"));
         let run = |entries| {
             let limits = Limits { entries, ..Limits::default() };
-            let mut worksheet = listing.runner(&Settings::default(), &limits);
-            worksheet.call(&[5.0.into()]).map(|_| worksheet.steps()).map_err(|why| why.cause)
+            let worksheet = Sheet::empty();
+            let mut runner = listing.runner(&worksheet, &Settings::default(), &limits);
+            runner.call(&[5.0.into()]).map(|_| runner.steps()).map_err(|why| why.cause)
         };
         // Beside them a statement, three expressions, two functions, and the entries of the matrix.
         assert_eq!(run(1 + 128), Ok(steps + 1 + 3 + 16 + 64), "{function}");
@@ -115,7 +117,7 @@ fn calls_within_calls_count_their_levels() {
     sheet.define_program(Listing::parse("g", "g(x) :=\n  if x\n    x").unwrap().into());
     let run = |calls| {
         let limits = Limits { calls, ..Limits::default() };
-        let outcome = f.runner_in(&sheet, &Settings::default(), &limits).call(&[5.0.into()]);
+        let outcome = f.runner(&sheet, &Settings::default(), &limits).call(&[5.0.into()]);
         outcome.map(|outcome| outcome.value).map_err(|failure| failure.cause)
     };
     assert_eq!(run(6), Ok(5.0.into()));
@@ -143,9 +145,11 @@ fn any_text_ends() {
     for _ in 0..2_000 {
         let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
         if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {}", words(&mut rng))) {
-            let mut worksheet = listing.runner(&Settings::default(), &limits);
+            let mut worksheet = Sheet::empty();
             worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
-            let _ = worksheet.call(&[Value::Number(5.0)]);
+            let _ = listing
+                .runner(&worksheet, &Settings::default(), &limits)
+                .call(&[Value::Number(5.0)]);
         }
     }
 }

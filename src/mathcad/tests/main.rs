@@ -15,7 +15,7 @@ mod xmcd;
 use fastrand::Rng;
 use mathcad::failure::Fallible;
 use mathcad::xmcd::page::Page;
-use mathcad::{Array, Ended, Limits, Listing, Settings, Value};
+use mathcad::{Array, Ended, Limits, Listing, Settings, Sheet, Value};
 
 /// One of few.
 fn one_of<T: Clone>(rng: &mut Rng, from: &[T]) -> T {
@@ -40,11 +40,15 @@ fn program(lines: &str) -> Listing {
 /// Returns the program's outcome under `settings`, with x = 5, the worksheet's v = (1 2 3)ᵀ, and
 /// m = (1 2; 3 4).
 fn outcome(lines: &str, settings: &Settings) -> Fallible<Ended> {
-    let listing = program(lines);
-    let mut worksheet = listing.runner(settings, &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
     worksheet.define("m", Array::from_fn(2, 2, |i, j| (2 * i + j + 1) as f64));
-    worksheet.call(&[Value::Number(5.0)])
+    called(&program(lines), &worksheet, settings)
+}
+
+/// Calls a program with x = 5 in a worksheet.
+fn called(program: &Listing, worksheet: &Sheet, settings: &Settings) -> Fallible<Ended> {
+    program.runner(worksheet, settings, &Limits::default()).call(&[Value::Number(5.0)])
 }
 
 /// Returns the program's value as text, rows separated by `;`, under `settings`.

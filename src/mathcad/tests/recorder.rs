@@ -2,14 +2,17 @@
 
 use super::program;
 use mathcad::observe::Executed;
-use mathcad::{Array, Limits, Recorder, Settings, Value};
+use mathcad::{Array, Limits, Recorder, Settings, Sheet, Value};
 
 /// Runs the program with v = (1 2 3)ᵀ and x = 5.
 fn record(lines: &str, recorder: &mut Recorder) {
     let listing = program(lines);
-    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
-    worksheet.call_recorded(&[Value::Number(5.0)], Some(recorder)).unwrap();
+    listing
+        .runner(&worksheet, &Settings::default(), &Limits::default())
+        .call_recorded(&[Value::Number(5.0)], Some(recorder))
+        .unwrap();
 }
 
 fn show(executed: &Executed) -> String {

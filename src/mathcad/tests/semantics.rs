@@ -1,15 +1,16 @@
 //! Rules that take more than a line of `rules.txt`.
 
-use super::{outcome, program, value};
-use mathcad::{Array, Cause, Conjunction, Limits, Settings, Value};
+use super::{called, outcome, program, value};
+use mathcad::{Array, Cause, Conjunction, Limits, Settings, Sheet, Value};
 
 #[test]
 fn writes_to_the_worksheet_s_names_are_local() {
     let listing = program("v[1] ← v[1] + x\nv");
-    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define("v", Array::column(vec![1.0, 2.0]));
+    let mut runner = listing.runner(&worksheet, &Settings::default(), &Limits::default());
     for _ in 0..2 {
-        let outcome = worksheet.call(&[Value::Number(5.0)]).unwrap();
+        let outcome = runner.call(&[Value::Number(5.0)]).unwrap();
         assert_eq!(outcome.value.to_string(), "6; 2");
         assert_eq!(outcome.locals.keys().collect::<Vec<_>>(), ["v"]);
     }
@@ -41,14 +42,15 @@ fn settings_are_read_by_their_names() {
     }
 }
 
-/// An array without entries has no determinant and no inverse.
+/// An array without entries has no determinant and no inverse, and is an entry as any other.
 #[test]
 fn an_empty_array_is_no_square_matrix() {
+    let mut worksheet = Sheet::empty();
+    worksheet.define("a", Array::default());
+    let outcome = called(&program("b[2] ← a\nrows(b)"), &worksheet, &Settings::default());
+    assert_eq!(outcome.unwrap().value, Value::Number(2.0));
     for body in ["|a|", "a^(−1)", "determinant(a)"] {
-        let listing = program(body);
-        let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
-        worksheet.define("a", Array::default());
-        let cause = worksheet.call(&[5.0.into()]).unwrap_err().cause;
+        let cause = called(&program(body), &worksheet, &Settings::default()).unwrap_err().cause;
         assert!(matches!(cause, Cause::Kind { expected: "a square matrix", .. }), "{body}");
     }
 }
@@ -56,18 +58,19 @@ fn an_empty_array_is_no_square_matrix() {
 #[test]
 fn functions_from_outside() {
     let listing = program("y ← D(x, 2)\nD(y, 0)");
-    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define_function("D", |arguments| match arguments {
         [Value::Number(x), Value::Number(y)] if *y > 0.0 => Ok(Value::Number(x * y)),
         _ => Err("y must be above 0".into()),
     });
-    let failure = worksheet.call(&[Value::Number(3.0)]).unwrap_err();
+    let mut runner = listing.runner(&worksheet, &Settings::default(), &Limits::default());
+    let failure = runner.call(&[Value::Number(3.0)]).unwrap_err();
     assert_eq!(
         failure.cause,
         Cause::Function { name: "D".into(), message: "y must be above 0".into() }
     );
     assert_eq!((failure.line, failure.text.as_str()), (3, "D(y, 0)"));
-    assert_eq!(worksheet.call(&[]).unwrap_err().cause, Cause::Arguments { expected: 1, found: 0 });
+    assert_eq!(runner.call(&[]).unwrap_err().cause, Cause::Arguments { expected: 1, found: 0 });
 }
 
 /// What a copy has of its own, the array that it was copied from has not.
@@ -92,10 +95,10 @@ fn trace_prints_and_returns_a_string() {
 
 #[test]
 fn a_worksheet_has_arrays_of_arrays() {
-    let listing = program("B[2]·x");
-    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define("B", [1.0, 2.0].map(Value::from).into_iter().collect::<Value>());
-    assert_eq!(worksheet.call(&[Value::Number(5.0)]).unwrap().value, Value::Number(10.0));
+    let outcome = called(&program("B[2]·x"), &worksheet, &Settings::default());
+    assert_eq!(outcome.unwrap().value, Value::Number(10.0));
 }
 
 #[test]

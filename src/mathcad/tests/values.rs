@@ -14,10 +14,12 @@ fn what_is_missing_is_what_growing_adds() {
         let (rows, cols) = (3.max(i + 1), 2.max(j + 1));
         let missing = array.missing(i, j);
         assert_eq!(missing, rows * cols - 6, "{i}, {j}");
-        array.grow(i, j);
+        array.write(i, j, 9.0);
         assert_eq!((array.rows(), array.cols()), (rows, cols));
         assert_eq!(array.entries().count(), 6 + missing);
-        assert_eq!(array.get(2, 1), Some(&6.0), "the entries keep their places");
+        assert_eq!(array.get(i, j), Some(&9.0));
+        let last = if (i, j) == (2, 1) { 9.0 } else { 6.0 };
+        assert_eq!(array.get(2, 1), Some(&last), "the entries keep their places");
     }
 }
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use mathcad::worksheet::{Agreement, ExecutedRegion, execute};
 use mathcad::xmcd::document::{self, Content};
 use mathcad::xmcd::write;
-use mathcad::{Array, Cause, Limits, Listing, Settings, Value};
+use mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
 
 /// Writes a listing as a worksheet, and reads it back as text.
 pub fn there_and_back(listing: &Listing) -> Result<String, String> {
@@ -119,9 +119,10 @@ fn damaged_worksheets_end() {
 /// The value of a program, or the kind of its failure, with little to spend.
 fn run(listing: &Listing) -> Result<String, std::mem::Discriminant<Cause>> {
     let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
-    let mut worksheet = listing.runner(&Settings::default(), &limits);
+    let mut worksheet = Sheet::empty();
     worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
-    let outcome = worksheet.call(&[Value::Number(5.0)]);
+    let outcome =
+        listing.runner(&worksheet, &Settings::default(), &limits).call(&[Value::Number(5.0)]);
     let kind = outcome.map_err(|failure| std::mem::discriminant(&failure.cause));
     kind.map(|outcome| outcome.value.to_string())
 }

@@ -5,7 +5,7 @@ use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
 use crate::syntax::{Expr, Kind, Level, Operation, Operator, Statement, Step};
-use crate::value::{Array, Value};
+use crate::value::Value;
 use base::xml::Element;
 
 /// Writes the definition of a listing's function, or of a name where it has no parameters.
@@ -45,12 +45,6 @@ pub fn id(name: &str) -> Element {
     if subscript.is_empty() { id } else { id.set("subscript", subscript) }
 }
 
-/// Writes an array of numbers.
-pub fn matrix(array: &Array) -> Element {
-    let entries: Vec<f64> = array.entries().copied().collect();
-    by_columns(&entries, array.cols(), |x| real(*x))
-}
-
 /// Writes entries, given row by row, column by column.
 fn by_columns<T>(entries: &[T], cols: usize, write: impl Fn(&T) -> Element) -> Element {
     let rows = entries.len() / cols.max(1);
@@ -66,16 +60,18 @@ pub fn literal(value: &Value) -> Element {
     match value {
         Value::Number(x) => real(*x),
         Value::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
-        Value::Array(array) => matrix(array),
+        Value::Array(array) => {
+            by_columns(&array.entries().collect::<Vec<_>>(), array.cols(), |x| real(**x))
+        }
         Value::Nested(nested) => {
-            let entries: Vec<Value> = nested.grid().entries().cloned().collect();
-            by_columns(&entries, nested.grid().cols(), literal)
+            let entries: Vec<_> = nested.grid().entries().collect();
+            by_columns(&entries, nested.grid().cols(), |value| literal(value))
         }
     }
 }
 
 /// Makes the element of a real number.
-pub fn real(x: f64) -> Element {
+fn real(x: f64) -> Element {
     Element::with_text("ml:real", &number(x))
 }
 
@@ -104,12 +100,12 @@ pub fn number(x: f64) -> String {
 }
 
 /// Makes the element of an expression in brackets.
-pub fn parens(x: Element) -> Element {
+fn parens(x: Element) -> Element {
     Element::new("ml:parens").with(x)
 }
 
 /// Writes an operator before its operands.
-pub fn apply(operator: &'static str, operands: impl IntoIterator<Item = Element>) -> Element {
+fn apply(operator: &'static str, operands: impl IntoIterator<Item = Element>) -> Element {
     Element::new("ml:apply").with(Element::new(operator)).with_all(operands)
 }
 
@@ -131,24 +127,22 @@ impl Writer<'_> {
     }
 
     fn statement(&self, statement: &Statement) -> Element {
+        let mut blocks = statement.blocks.iter().map(|block| self.block(block));
         let line = match &statement.step {
-            Step::If { condition, body } => {
-                element("ml:ifThen", [self.expr(condition), self.block(body)])
+            Step::Block => blocks.next().expect("the block below `if`"),
+            Step::While { condition } => {
+                element("ml:while", [self.expr(condition)].into_iter().chain(blocks))
             }
-            Step::While { condition, body } => {
-                element("ml:while", [self.expr(condition), self.block(body)])
-            }
-            Step::Otherwise { body } => element("ml:otherwise", [self.block(body)]),
-            Step::Try { body, fallback } => {
-                element("ml:tryCatch", [self.block(body), self.block(fallback)])
-            }
-            Step::For { name, range, body } => {
+            Step::Otherwise => element("ml:otherwise", blocks),
+            Step::Try => element("ml:tryCatch", blocks),
+            Step::For { name, range } => {
                 let start = self.sequence(&range.values);
                 let range = match &range.to {
                     Some(to) => element("ml:range", [start, self.expr(to)]),
                     None => start,
                 };
-                element("ml:for", [id(self.names.name(*name)), range, self.block(body)])
+                let head = [id(self.names.name(*name)), range];
+                element("ml:for", head.into_iter().chain(blocks))
             }
             Step::Assign { target, value } => {
                 element("ml:localDefine", [self.expr(target), self.expr(value)])

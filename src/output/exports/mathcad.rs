@@ -128,8 +128,8 @@ pub fn corrected(export: &CorrectedExport) -> String {
          listings. It is not the paper's. Nothing here was calculated by Mathcad yet.",
     );
     scene_tables(&mut page, export.sheet, export.thickness);
-    page.define("F", write::matrix(&Array::column(export.force.clone())), export.force.len());
-    page.define("both", write::real(export.bound.both()), 1);
+    define(&mut page, "F", &Array::column(export.force.clone()).into());
+    define(&mut page, "both", &export.bound.both().into());
     elements(&mut page, export.sheet);
     page.heading("The corrected listings / Исправленные листинги");
     for program in Program::ALL {
@@ -142,7 +142,7 @@ pub fn corrected(export: &CorrectedExport) -> String {
     page.heading(
         "plane-contact's results, and the difference / Результаты plane-contact и разность",
     );
-    beside(&mut page, "u_ours", &Array::column(export.u.clone()), "u");
+    beside(&mut page, "u_ours", Array::column(export.u.clone()), "u");
     page.finish(export.title, &Settings::default())
 }
 
@@ -154,7 +154,7 @@ fn scene_tables(page: &mut Page, sheet: &Worksheet<f64>, thickness: f64) {
             define(page, name, &value);
         }
     }
-    page.define("thickness", write::real(thickness), 1);
+    define(page, "thickness", &thickness.into());
     for (name, table) in [("R", "node"), ("M", "EL")] {
         page.define(name, expression(&format!("rows({table})")), 1);
     }
@@ -169,7 +169,7 @@ fn elements(page: &mut Page, sheet: &Worksheet<f64>) {
 
 fn iterations(page: &mut Page, export: &Export, run: &Iterated) {
     page.heading("The iterations / Итерации");
-    page.define("F", write::matrix(&Array::column(run.force.clone())), run.force.len());
+    define(page, "F", &Array::column(run.force.clone()).into());
     let states = STATES.replace(
         "PLANE",
         match export.sheet.plane {
@@ -190,22 +190,22 @@ fn iterations(page: &mut Page, export: &Export, run: &Iterated) {
     );
     page.text("Each difference should be 0, or rounding. / Каждая разность — 0 или округление.");
     let k_cnt = Array::from_fn(export.sheet.R(), 4, |i, j| run.pairs.k_cnt[(i + 1, j + 1)]);
-    beside(page, "k_ours", &k_cnt, "k_cnt");
+    beside(page, "k_ours", k_cnt, "k_cnt");
     if export.sheet.R() * 2 <= SHOWN_EQUATIONS
         && let Ok(mjs) = paper::mirror::Km(export.sheet, export.reading, &run.pairs.k_cnt)
     {
         let mjs = mjs.to_table();
         let n = mjs.rows();
         let mjs = Array::from_fn(n, n, |i, j| mjs[(i + 1, j + 1)]);
-        beside(page, "M_ours", &mjs, "MJS");
+        beside(page, "M_ours", mjs, "MJS");
     }
-    beside(page, "U_ours", &Array::column(run.u.clone()), "U");
-    beside(page, "s_ours", &Array::column(run.stress.clone()), "state⟨8⟩");
+    beside(page, "U_ours", Array::column(run.u.clone()), "U");
+    beside(page, "s_ours", Array::column(run.stress.clone()), "state⟨8⟩");
 }
 
 /// Defines our values under a name, and evaluates the largest difference from Mathcad's.
-fn beside(page: &mut Page, name: &str, ours: &Array, theirs: &str) {
-    page.define(name, write::matrix(ours), ours.rows());
+fn beside(page: &mut Page, name: &str, ours: Array, theirs: &str) {
+    define(page, name, &ours.into());
     let difference = format!("max({theirs} − {name}) − min({theirs} − {name})");
     page.evaluate(expression(&difference), 1, &format!("difference {name}"));
 }

@@ -263,21 +263,18 @@ impl Translator<'_> {
         let mut put = |level: usize, line: &str| {
             *text += &format!("{:1$}{line}\n", "", 2 * level);
         };
-        let Statement { step, guard, .. } = statement;
-        if let Some(guard) = guard {
+        let mut inner = level;
+        if let Some(guard) = &statement.guard {
             put(level, &format!("if {}", self.expr(guard)));
+            inner += 1;
         }
-        let inner = level + usize::from(guard.is_some());
-        match step {
-            Step::For { name, range: Range { values, to: Some(to) }, body } => {
+        match &statement.step {
+            Step::For { name, range: Range { values, to: Some(to) } } => {
                 let (values, to) = (self.list(values), self.expr(to));
                 put(inner, &format!("for {} = upto({values}, {to})", self.name(*name)));
-                self.block(body, inner + 1, text);
+                inner += 1;
             }
-            Step::If { condition, body } => {
-                put(inner, &format!("if {}", self.expr(condition)));
-                self.block(body, inner + 1, text);
-            }
+            Step::Block => {}
             Step::Assign { target, value } => {
                 let place = match target.parts.as_slice() {
                     [name, row] => format!("{}({}, 1)", self.expr(name), self.expr(row)),
@@ -292,12 +289,9 @@ impl Translator<'_> {
             }
             other => unreachable!("the listings have no {other:?}"),
         }
-        let mut close = |level: usize| *text += &format!("{:1$}end\n", "", 2 * level);
-        if !step.blocks().is_empty() {
-            close(inner);
-        }
-        if guard.is_some() {
-            close(level);
+        statement.blocks.iter().for_each(|block| self.block(block, inner, text));
+        for level in (level..inner).rev() {
+            *text += &format!("{:1$}end\n", "", 2 * level);
         }
     }
 

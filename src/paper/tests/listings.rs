@@ -3,7 +3,7 @@
 use mathcad::array::{Column, Table};
 use mathcad::failure::Fallible;
 use mathcad::xmcd::page::Page;
-use mathcad::{Array, Cause, Conjunction, Edit, Ended, Limits, Listing, Settings, Value};
+use mathcad::{Array, Cause, Conjunction, Edit, Ended, Limits, Listing, Settings, Sheet, Value};
 
 const LISTINGS: [(&str, &str); 2] = [
     ("c_cnt", include_str!("../../../listings/c_cnt.txt")),
@@ -82,7 +82,7 @@ fn find_pairs(listing: &Listing, settings: &Settings) -> Fallible<Ended> {
     ]);
     let mut initial = moved.clone();
     initial[(4, 2)] = 1.25;
-    let mut worksheet = listing.runner(settings, &Limits::default());
+    let mut worksheet = Sheet::empty();
     worksheet.define("node", &initial).define("c_tll", 0.25).define("R", 6usize);
     worksheet.define(
         "elem",
@@ -91,7 +91,7 @@ fn find_pairs(listing: &Listing, settings: &Settings) -> Fallible<Ended> {
     worksheet
         .define("cnt", &Column::from_vec(vec![4usize, 5, 6]))
         .define("trg", &Column::from_vec(vec![1usize, 2]));
-    worksheet.call(&[Value::from(&moved)])
+    listing.runner(&worksheet, settings, &Limits::default()).call(&[Value::from(&moved)])
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn contact_pairs_under_r5_node_n() {
 /// diagonal D = (E, E, E·ν): (2, 2, 1) for element 1 and 2·(4, 4, 1) = (8, 8, 2) for element 2.
 /// Equations 1 and 10 are restrained.
 fn assemble(listing: &Listing) -> Table<f64> {
-    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    let mut worksheet = Sheet::empty();
     let unit = Array::from_fn(3, 6, |i, j| if j % 3 == i { 1.0 } else { 0.0 });
     let restrained =
         (1..=12).map(|equation| if equation == 1 || equation == 10 { 1.0 } else { 0.0 });
@@ -192,8 +192,10 @@ fn assemble(listing: &Listing) -> Table<f64> {
         [0.0, 0.0, 0.0, 0.0],
         [2.0, 0.25, 3.0, 0.75],
     ]);
-    let outcome =
-        worksheet.call(&[Value::from(&pairs)]).unwrap_or_else(|failure| panic!("{failure}"));
+    let outcome = listing
+        .runner(&worksheet, &Settings::default(), &Limits::default())
+        .call(&[Value::from(&pairs)])
+        .unwrap_or_else(|failure| panic!("{failure}"));
     Table::try_from(&outcome.value).unwrap()
 }
 

@@ -19,7 +19,7 @@ use base::limits;
 
 /// Scene files, of which the mesh is another file.
 pub const SCENE: json::Kind =
-    json::Kind { name: "scene file", fix: "see `plane-contact guide scenes`", has_values: false };
+    json::Kind { name: "scene file", fix: "see `plane-contact guide scenes`" };
 
 /// Parses a scene file, with the source of its mesh still in it.
 ///

@@ -73,8 +73,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         return Err(InputError::new("--call", what, "give its value by --inputs").into());
     }
     let limits = Limits { steps: args.limit, ..Limits::default() };
-    let outcome =
-        waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
+    let outcome = waiting("executing", || call.runner(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
             let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
@@ -107,7 +106,7 @@ fn call_of(program: &Listing) -> String {
 /// The worksheet that `--inputs` spells.
 fn inputs(text: &str) -> Result<Sheet, InputError> {
     let fix = "give an object such as {\"x\": 1, \"A\": [[1, 2], [3, 4]]}";
-    let kind = files::json::Kind { name: "object of inputs", fix, has_values: true };
+    let kind = files::json::Kind { name: "object of inputs", fix };
     let names: serde_json::Map<String, serde_json::Value> =
         files::json::read(text.as_bytes(), &kind).map_err(|error| error.within("--inputs"))?;
     let mut sheet = Sheet::default();

@@ -162,7 +162,7 @@ impl Snapshot {
         struct Head {
             format: Option<u32>,
         }
-        let kind = json::Kind { name: "snapshot", fix: FIX, has_values: true };
+        let kind = json::Kind { name: "snapshot", fix: FIX };
         // What cannot be read is named below.
         let head = files::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
         if let Some(Head { format }) = head

@@ -30,11 +30,8 @@ choices! {
 }
 
 /// The results of jobs.
-const RESULT: Kind = Kind {
-    name: "result of a job",
-    fix: "move the file away, or give another folder by --out",
-    has_values: true,
-};
+const RESULT: Kind =
+    Kind { name: "result of a job", fix: "move the file away, or give another folder by --out" };
 
 /// Returns the name of a job's result.
 pub fn result_name(job: &Job) -> String {

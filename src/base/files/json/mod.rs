@@ -35,8 +35,6 @@ pub struct Kind {
     pub name: &'static str,
     /// What to do about one that is malformed.
     pub fix: &'static str,
-    /// Whether values of it are held as they come, as [`Value`], which takes more memory.
-    pub has_values: bool,
 }
 
 /// Reads a document in UTF-8, with or without a byte order mark.
@@ -195,7 +193,7 @@ fn meant(error: &serde_json::Error) -> String {
 /// ```
 /// use plane_contact_base::files::json::{Kind, instead};
 ///
-/// let kind = Kind { name: "scene file", fix: "see the guide", has_values: false };
+/// let kind = Kind { name: "scene file", fix: "see the guide" };
 /// let error = instead(b"$MeshFormat", &kind).expect("a mesh");
 /// assert_eq!(error.what, "this is a Gmsh mesh, not a scene file");
 /// ```
