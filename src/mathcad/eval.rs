@@ -9,7 +9,7 @@ use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::{Defined, Numbers};
-use super::state::{Ended, Run};
+use super::state::{Ended, Execution};
 use super::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Span, Statement, Step,
 };
@@ -60,7 +60,7 @@ impl Turns {
     }
 }
 
-impl Run<'_, '_> {
+impl Execution<'_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
     pub fn run(mut self, arguments: &[Value]) -> Fallible<Ended> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
@@ -747,7 +747,7 @@ impl Run<'_, '_> {
         // Each name is looked up in the worksheet.
         self.spend(16 + 8 * program.names.len() as u64)?;
         let sheet = defined.above.as_deref().unwrap_or(self.sheet);
-        let mut run = Run::new(program, sheet, self.settings, self.limits, self.spent);
+        let mut run = Execution::new(program, sheet, self.settings, self.limits, self.spent);
         (run.stored, run.depth) = (self.stored, depth);
         // Its own name, the first, is itself where nothing above it has that name.
         run.functions[0].get_or_insert_with(|| Function::Program(defined.clone()));

@@ -8,7 +8,7 @@ use super::listing::Listing;
 use super::observe::Recorder;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::state::{Ended, Run};
+use super::state::{Ended, Execution};
 use super::value::Value;
 
 /// Returns the value of an expression, or of the lines of a program, under the default settings.
@@ -68,7 +68,7 @@ impl Runner<'_> {
     ) -> Fallible<Ended> {
         self.spent.set(0);
         let Runner { listing, sheet, settings, limits, spent } = self;
-        let mut run = Run::new(listing, sheet, settings, limits, spent);
+        let mut run = Execution::new(listing, sheet, settings, limits, spent);
         run.recorder = recorder;
         run.run(arguments)
     }

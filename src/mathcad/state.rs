@@ -34,7 +34,7 @@ pub struct Ended {
     pub trace_output: Vec<String>,
 }
 
-pub struct Run<'r, 'f> {
+pub struct Execution<'r, 'f> {
     pub listing: &'r Listing,
     /// The worksheet in which the functions that are called stand.
     pub sheet: &'r Sheet,
@@ -57,7 +57,7 @@ pub struct Run<'r, 'f> {
     pub trace: Vec<String>,
 }
 
-impl<'r> Run<'r, '_> {
+impl<'r> Execution<'r, '_> {
     /// Makes the run of a listing, whose names are those of the sheet.
     pub fn new(
         listing: &'r Listing,
@@ -67,7 +67,7 @@ impl<'r> Run<'r, '_> {
         spent: &'r Cell<u64>,
     ) -> Self {
         let names = || listing.names.all();
-        Run {
+        Execution {
             listing,
             sheet,
             settings,
