@@ -55,6 +55,14 @@ pub struct Triangle {
     pub material: Material,
 }
 
+impl Triangle {
+    /// Returns its sides, which leave it on their left.
+    pub fn sides(&self) -> [[NodeId; 2]; 3] {
+        let [a, b, c] = self.nodes;
+        [[a, b], [b, c], [c, a]]
+    }
+}
+
 /// An edge that the mesh names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Edge {

@@ -289,13 +289,12 @@ fn bodies(mesh: &Mesh) -> Vec<usize> {
 
 /// Returns the groups of edges.
 fn curves(mesh: &Mesh, groups: &Groups, body: &[usize]) -> Result<Vec<Curve>> {
-    let corners = |triangle: &Element| [0, 1, 2].map(|k| NodeId::from_number(triangle.nodes[k]));
-    let triangles: Vec<[NodeId; 3]> = mesh.of_dimension(2).map(corners).collect();
+    let triangles: Vec<[NodeId; 3]> = mesh.of_dimension(2).map(Element::ids).collect();
     let sides = Sides::new(triangles.into_iter());
     let curve = |group: GroupRef| {
         let nodes = groups.nodes(&group, "")?;
         let outer = groups.members(1, &group, "")?.filter_map(|edge| {
-            let side = sides.boundary([0, 1].map(|k| NodeId::from_number(edge.nodes[k])))?;
+            let side = sides.boundary(edge.ids())?;
             Some(side.nodes.map(|node| mesh.xy(node.number())))
         });
         let edges: Vec<Ends> = outer.collect();

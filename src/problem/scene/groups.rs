@@ -125,8 +125,7 @@ impl<'m> Groups<'m> {
     /// Returns the groups of elements of dimension `dim`, by ascending tag.
     pub fn all(&self, dim: usize) -> Vec<GroupRef> {
         let group = |((_, tag), _): (&(usize, usize), _)| {
-            let name = self.mesh.names.iter().find(|name| name.dim == dim && name.tag == *tag);
-            name.map_or(GroupRef::Tag(*tag), |name| GroupRef::Name(name.name.clone()))
+            self.mesh.name(dim, *tag).map_or(GroupRef::Tag(*tag), GroupRef::from)
         };
         self.places.range((dim, 0)..(dim + 1, 0)).map(group).collect()
     }
@@ -218,8 +217,7 @@ impl<'m> Groups<'m> {
         let kind = ELEMENT_NAMES[dim];
         let tags = self.places.range((dim, 0)..(dim + 1, 0)).map(|((_, tag), _)| *tag);
         let named = |tag: usize| {
-            let name = self.mesh.names.iter().find(|n| n.dim == dim && n.tag == tag);
-            name.map_or(tag.to_string(), |name| format!("{:?} ({tag})", name.name))
+            self.mesh.name(dim, tag).map_or(tag.to_string(), |name| format!("{name:?} ({tag})"))
         };
         let names: Vec<String> = tags.clone().take(MOST_LISTED).map(named).collect();
         match tags.count() - names.len() {

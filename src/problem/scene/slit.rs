@@ -12,7 +12,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::fold::{DEPTH, Faces};
-use super::mesh::{Element, Mesh};
+use super::mesh::Mesh;
 use crate::model::{Model, NodeId};
 
 /// The direction along which nodes are sorted, by its slope: few outlines run across it.
@@ -23,8 +23,7 @@ const MOST: usize = 5;
 
 /// Says which edges are a side of no triangle.
 pub fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
-    let nodes = |edge: &&Element| [0, 1].map(|k| NodeId::from_number(edge.nodes[k]));
-    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(nodes(edge)).is_empty());
+    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(edge.ids()).is_empty());
     let first = loose.next()?;
     let more = match loose.count() {
         0 => String::new(),
@@ -48,12 +47,7 @@ pub fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
             || on_contact.contains(&a) && on_target.contains(&b)
             || on_contact.contains(&b) && on_target.contains(&a)
     };
-    let corners = model.triangles.iter().flat_map(|triangle| {
-        let [a, b, c] = triangle.nodes;
-        [[a, b], [b, c], [c, a]]
-    });
-    let outline: Vec<[NodeId; 2]> =
-        corners.filter(|side| model.sides.boundary(*side).is_some()).collect();
+    let outline: Vec<[NodeId; 2]> = model.sides.outline().map(|side| side.nodes).collect();
     let along = |n: NodeId| {
         let [x, y] = model.nodes[n.index()];
         x + SLOPE * y

@@ -107,7 +107,7 @@ fn site<'a>(
             Ok((on.text(), Site::Group(on)))
         }
         (None, Some(n), None) => {
-            mesh.check_node(n, &format!("{place}.node"))?;
+            mesh.node(n, &format!("{place}.node"))?;
             Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
         }
         (None, None, Some(at)) => {

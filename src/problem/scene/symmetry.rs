@@ -47,10 +47,7 @@ fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], nodes: &BTreeSet<N
     let (_, whole) = scene.source();
     let is_inside = |n: &usize| nodes.contains(&NodeId::from_number(*n));
     let own = whole.elements.iter().filter(|element| element.nodes.iter().all(is_inside));
-    let sides = triangles.iter().flat_map(|id| {
-        let [a, b, c] = scene.model.triangle(*id).nodes;
-        [[a, b], [b, c], [c, a]]
-    });
+    let sides = triangles.iter().flat_map(|id| scene.model.triangle(*id).sides());
     let on_line = sides.filter(|side| side.iter().all(|node| line.side(*node) == 0));
     let last = whole.elements.last().map_or(0, |element| element.number);
     let along = (last + 1..).zip(on_line).map(|(number, side)| Element {

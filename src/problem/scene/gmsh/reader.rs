@@ -140,6 +140,9 @@ enum Version {
     V4,
 }
 
+/// What the number of an element is expected to be.
+const NUMBER: &str = "an element's number, 1 or more";
+
 /// The parts of a file that have been read so far.
 struct Reader<'a> {
     tokens: Tokens<'a>,
@@ -280,10 +283,7 @@ impl<'a> Reader<'a> {
         let declared = self.tokens.count_line("the number of elements")?;
         let is_text = self.tokens.encoding == Encoding::Text;
         while self.elements.len() < declared {
-            let mut number = 0;
-            if is_text {
-                number = self.tokens.int_from(1, "an element's number, 1 or more")?;
-            }
+            let mut number = if is_text { self.tokens.int_from(1, NUMBER)? } else { 0 };
             let kind_number = self.tokens.int("an element's type")?;
             let count = match is_text {
                 true => 1,
@@ -292,7 +292,7 @@ impl<'a> Reader<'a> {
             let tags = self.tokens.int_from(0, "an element's number of tags")?;
             for _ in 0..count {
                 if !is_text {
-                    number = self.tokens.int_from(1, "an element's number, 1 or more")?;
+                    number = self.tokens.int_from(1, NUMBER)?;
                 }
                 // The first tag is physical (0: none), the second geometric.
                 let mut first = [0; 2];
@@ -393,7 +393,7 @@ impl<'a> Reader<'a> {
             };
             let kind_number = self.tokens.int("an element's type")?;
             for _ in 0..self.tokens.size("the number of elements of a block")? {
-                let number = self.tokens.size_from(1, "an element's number, 1 or more")?;
+                let number = self.tokens.size_from(1, NUMBER)?;
                 let kind = self.kind(number, kind_number, (&physical, magnitude(tag)))?;
                 if kind.dim != dim {
                     return Err(self.tokens.refused(format!(

@@ -106,13 +106,9 @@ impl<'a> Tokens<'a> {
             let digits = word.unwrap_or_default().trim_start_matches('-');
             let is_large = digits.len() > 9 && digits.bytes().all(|byte| byte.is_ascii_digit());
             let largest = if size_of::<T>() == 4 { i32::MAX as u64 } else { u64::MAX };
-            let found = shown(self.token());
-            let found = if is_large {
-                format!("{found}, beyond the largest number {largest}")
-            } else {
-                found
-            };
-            self.unexpected(found, expected)
+            let beyond = format!(", beyond the largest number {largest}");
+            let beyond = if is_large { &*beyond } else { "" };
+            self.unexpected(shown(self.token()) + beyond, expected)
         })
     }
 
