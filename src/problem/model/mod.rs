@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
 
-pub use body::{Body, bodies};
+pub use body::{Body, bodies, lowest};
 pub use bounds::Bounds;
 pub use force::Force;
 #[cfg(feature = "scenes")]

@@ -9,15 +9,14 @@ use serde_json::{Value, json};
 use super::Scene;
 use super::check;
 use super::description::{Description, Materials};
-use super::file::{self, text_of};
+use super::file::{self, of_null, text_of};
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::surface::Surface;
 use crate::element::Plane;
-use crate::model::{Bounds, Material, Model, NodeId, Sides};
+use crate::model::{Bounds, Material, Model, NodeId, Sides, lowest};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
-use numbers::joined::joined;
 
 /// The most entities for which lines of Gmsh are written.
 const MOST_LINES: usize = 20;
@@ -174,20 +173,12 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
 /// Returns what `solve` would say of a first scene, whatever is chosen for what is null.
 fn in_solve(scene: &Value, file: &[u8]) -> Vec<String> {
     let mut chosen = scene.clone();
-    choose(&mut chosen, "");
+    of_null(&mut chosen, "", "", &mut |_, field, value| {
+        *value = if field == "nu" { 0.0 } else { 1.0 }.into();
+    });
     match Scene::build("first", text_of(&chosen).as_bytes(), |_| Ok(file.to_vec())) {
         Ok(scene) => scene.adapted().to_vec(),
         Err(why) => vec![format!("solve refuses it so far: {}; {}", why.what, why.fix)],
-    }
-}
-
-/// Gives some value to each field that is null.
-fn choose(value: &mut Value, field: &str) {
-    match value {
-        Value::Null => *value = if field == "nu" { 0.0 } else { 1.0 }.into(),
-        Value::Object(fields) => fields.iter_mut().for_each(|(name, value)| choose(value, name)),
-        Value::Array(items) => items.iter_mut().for_each(|value| choose(value, field)),
-        Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
 }
 
@@ -280,11 +271,7 @@ fn loose(
 
 /// Returns the body of each node, by its lowest one.
 fn bodies(mesh: &Mesh) -> Vec<usize> {
-    let sides = mesh.of_dimension(2).flat_map(|triangle| {
-        let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[k] - 1);
-        [(a, b), (b, c)]
-    });
-    joined(mesh.nodes.len(), sides)
+    lowest(mesh.nodes.len(), mesh.of_dimension(2).map(Element::ids))
 }
 
 /// Returns the groups of edges.
