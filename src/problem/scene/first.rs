@@ -286,9 +286,9 @@ fn curves(mesh: &Mesh, groups: &Groups, body: &[usize]) -> Result<Vec<Curve>> {
         });
         let edges: Vec<Ends> = outer.collect();
         let is_outline = edges.len() == groups.members(1, &group, "")?.count();
-        let heights = nodes.iter().map(|n| mesh.xy(*n)[1]);
+        let heights = nodes.iter().map(|n| mesh.xy(n.number())[1]);
         let height = heights.sum::<f64>() / nodes.len() as f64;
-        let bodies = nodes.iter().map(|n| body[n - 1]).collect();
+        let bodies = nodes.iter().map(|n| body[n.index()]).collect();
         Ok(Curve { group, bodies, edges, is_outline, height })
     };
     groups.all(1).into_iter().map(curve).collect()

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::mesh::{ENTITIES, Element, Mesh};
+use crate::model::NodeId;
 use base::error::{InputError, Result};
 use base::suggestion::did_you_mean;
 
@@ -159,13 +160,13 @@ impl<'m> Groups<'m> {
     }
 
     /// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
-    pub fn nodes(&self, group: &GroupRef, place: &str) -> Result<BTreeSet<usize>> {
+    pub fn nodes(&self, group: &GroupRef, place: &str) -> Result<BTreeSet<NodeId>> {
         let has_elements = |dim: &usize| {
             self.tag(*dim, group).is_some_and(|tag| self.places.contains_key(&(*dim, tag)))
         };
         let dim = [1, 0, 2].into_iter().find(has_elements).unwrap_or(1);
         let members = self.members(dim, group, place)?;
-        Ok(members.flat_map(|element| element.nodes.iter().copied()).collect())
+        Ok(members.flat_map(|it| it.nodes.iter().map(|n| NodeId::from_number(*n))).collect())
     }
 
     /// Returns the tag of a group of elements of dimension `dim`. A name may be a tag as text.

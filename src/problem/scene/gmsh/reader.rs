@@ -58,26 +58,19 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         let end = format!("$End{section}");
         reader.tokens.keyword(&end, &end)?;
     }
-    let Reader {
-        tokens, sections, mut names, names_have_dimensions, mut nodes, mut elements, ..
-    } = reader;
+    let Reader { tokens, sections, mut names, names_have_dimensions, nodes, elements, .. } = reader;
     for section in ["Nodes", "Elements"] {
         if !sections.contains(section) {
             return Err(tokens.refused(format!("the file has no section ${section}")));
         }
     }
-    nodes.sort_unstable_by_key(|node| node.number);
-    elements.sort_unstable_by_key(|element| element.number);
     if !names_have_dimensions {
         let groups = |e: &Element| e.physical.iter().map(|tag| (e.dim(), *tag)).collect::<Vec<_>>();
         let used: HashSet<(usize, usize)> = elements.iter().flat_map(groups).collect();
         names.retain(|group, _| used.contains(group));
     }
     let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
-    let names = names.into_iter().map(named).collect();
-    let mut mesh = Mesh { nodes, elements, names, ..Mesh::default() };
-    mesh.join_groups();
-    Ok(mesh)
+    Ok(Mesh::of(nodes, elements, names.into_iter().map(named).collect()))
 }
 
 /// Reads `$MeshFormat`, and skips the sections before it that other programs write.
