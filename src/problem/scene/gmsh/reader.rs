@@ -56,7 +56,7 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         }
         body(&mut reader)?;
         let end = format!("$End{section}");
-        reader.tokens.keyword(&end, &end)?;
+        reader.tokens.keyword(&end)?;
     }
     let Reader { tokens, sections, mut names, names_have_dimensions, nodes, elements, .. } = reader;
     for section in ["Nodes", "Elements"] {
@@ -80,7 +80,7 @@ fn version(tokens: &mut Tokens) -> Result<Version> {
         match &*section {
             "MeshFormat" => {
                 let version = format(tokens)?;
-                tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;
+                tokens.keyword("$EndMeshFormat")?;
                 return Ok(version);
             }
             "NOD" => return Err(other_version(tokens, "1")),

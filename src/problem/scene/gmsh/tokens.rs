@@ -192,10 +192,10 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the line `keyword`.
-    pub fn keyword(&mut self, keyword: &str, expected: &str) -> Result<()> {
+    pub fn keyword(&mut self, keyword: &str) -> Result<()> {
         self.word();
         if self.token() != keyword.as_bytes() {
-            return Err(self.unexpected(shown(self.token()), expected));
+            return Err(self.unexpected(shown(self.token()), keyword));
         }
         self.line_end()
     }
@@ -222,7 +222,7 @@ impl<'a> Tokens<'a> {
             return Err(self.unexpected("the end of the file", end));
         };
         self.at += distance;
-        self.keyword(&end, &end)
+        self.keyword(&end)
     }
 
     /// Skips a byte order mark at the beginning of the file.
