@@ -70,40 +70,16 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         Description { mesh: Some(name.into()), ..Description::new(Plane::Strain) };
     let mesh = file::mesh(&mut description, |_| Ok(file.to_vec()))?;
     mesh.check()?;
-    let groups = Groups::new(&mesh);
+    let (groups, body, orphans) = (Groups::new(&mesh), bodies(&mesh), mesh.orphans());
     let mut notes = Vec::new();
     let materials = materials(name, &mesh, &groups, &mut notes)?;
-    let body = bodies(&mesh);
     let (mut curves, mut inner): (Vec<Curve>, Vec<Curve>) =
         curves(&mesh, &groups, &body)?.into_iter().partition(|curve| curve.is_outline);
-    let contact = match pair(&curves) {
-        Some((gap, [cnt, trg], why)) => {
-            let [of_cnt, of_trg] = [cnt, trg].map(|place| &curves[place].group);
-            let reach = curves[cnt].longest().max(curves[trg].longest());
-            let apart = match gap > reach {
-                true => format!(", though they are {} apart, more than an edge", six_digits(gap)),
-                false => String::new(),
-            };
-            notes.push(format!(
-                "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}; \
-                 {of_cnt} is cnt, as {why}"
-            ));
-            let tolerance: Value =
-                six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
-            let scene =
-                json!({ "cnt": of_cnt, "trg": of_trg, "c_tll": tolerance, "friction": null });
-            let pair = [cnt.max(trg), cnt.min(trg)].map(|place| curves.remove(place));
-            Some((scene, pair))
-        }
-        None => {
-            if body.iter().collect::<BTreeSet<_>>().len() > mesh.orphans().len() + 1 {
-                notes.push(
-                    "contact: no two groups of edges of different bodies face each other".into(),
-                );
-            }
-            None
-        }
-    };
+    let contact = contact(&mut curves, &mut notes);
+    let distinct: BTreeSet<usize> = body.iter().copied().collect();
+    if contact.is_none() && distinct.len() > orphans.len() + 1 {
+        notes.push("contact: no two groups of edges of different bodies face each other".into());
+    }
     for group in [&mut curves, &mut inner] {
         group.sort_by(|a, b| a.height.total_cmp(&b.height));
     }
@@ -115,17 +91,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         Some(curve) => format!("{what}: on {}, the {extreme}", curve.group),
     };
     if groups.all(1).is_empty() {
-        let how = match is_of_gmsh(&mesh) {
-            true => {
-                "in Gmsh add those that you need, as in Physical Curve(\"bottom\") = {1}; and mesh again"
-            }
-            false => {
-                "in meshio add cells of the kind \"line\", with a tag and its name, and save again"
-            }
-        };
-        notes.push(format!(
-            "the mesh has no group of edges, by which a scene names restraints, loads and contact: {how}"
-        ));
+        notes.push(without_curves(&mesh));
     } else {
         notes.push(guess("restraint", lowest, "lowest"));
         notes.push(guess("load", highest, "highest"));
@@ -161,13 +127,46 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     if let Some((contact, _)) = contact {
         scene["contact"] = contact;
     }
-    if !mesh.orphans().is_empty() {
+    if !orphans.is_empty() {
         scene["drop_orphans"] = true.into();
-        let named = mesh.named(&mesh.orphans());
+        let named = mesh.named(&orphans);
         notes.push(format!("drop_orphans: nodes in no triangle are left out: {named}"));
     }
     notes.extend(in_solve(&scene, file));
     Ok(FirstScene { text: text_of(&scene), notes })
+}
+
+/// Takes the two curves that look like a contact out of the others; returns them behind the scene's contact.
+fn contact(curves: &mut Vec<Curve>, notes: &mut Vec<String>) -> Option<(Value, [Curve; 2])> {
+    let (gap, [cnt, trg], why) = pair(curves)?;
+    let [of_cnt, of_trg] = [cnt, trg].map(|place| &curves[place].group);
+    let reach = curves[cnt].longest().max(curves[trg].longest());
+    let apart = match gap > reach {
+        true => format!(", though they are {} apart, more than an edge", six_digits(gap)),
+        false => String::new(),
+    };
+    notes.push(format!(
+        "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}; {of_cnt} is \
+         cnt, as {why}"
+    ));
+    let tolerance = six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
+    let scene = json!({ "cnt": of_cnt, "trg": of_trg, "c_tll": tolerance, "friction": null });
+    Some((scene, [cnt.max(trg), cnt.min(trg)].map(|place| curves.remove(place))))
+}
+
+/// Says that a mesh has no group of edges.
+fn without_curves(mesh: &Mesh) -> String {
+    let how = match is_of_gmsh(mesh) {
+        true => {
+            "in Gmsh add those that you need, as in Physical Curve(\"bottom\") = {1}; and mesh again"
+        }
+        false => {
+            "in meshio add cells of the kind \"line\", with a tag and its name, and save again"
+        }
+    };
+    format!(
+        "the mesh has no group of edges, by which a scene names restraints, loads and contact: {how}"
+    )
 }
 
 /// Returns what `solve` would say of a first scene, whatever is chosen for what is null.
