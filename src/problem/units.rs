@@ -1,6 +1,6 @@
-//! The table of units: how large each is, by its name.
+//! The units of length: how large each is, by its name.
 
-/// The units that are known, in m, Pa and N, and how they are shown. Others are named as unknown.
+/// The units of length that are known, in m. Others are named as unknown.
 pub(crate) const LENGTHS: [(&str, f64); 9] = [
     ("m", 1.0),
     ("km", 1e3),
@@ -12,34 +12,6 @@ pub(crate) const LENGTHS: [(&str, f64); 9] = [
     ("inch", 0.0254),
     ("ft", 0.3048),
 ];
-#[cfg(feature = "scenes")]
-pub(crate) const SI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
-#[cfg(feature = "scenes")]
-const STRESSES: [(&str, f64); 7] = [
-    SI[0],
-    SI[1],
-    SI[2],
-    SI[3],
-    ("bar", 1e5),
-    ("psi", POUND / (0.0254 * 0.0254)),
-    ("ksi", 1000.0 * POUND / (0.0254 * 0.0254)),
-];
-#[cfg(feature = "scenes")]
-pub(crate) const FORCES: [(&str, f64); 9] = [
-    ("N", 1.0),
-    ("mN", 1e-3),
-    ("daN", 10.0),
-    ("kN", 1e3),
-    ("MN", 1e6),
-    ("lbf", POUND),
-    ("lb", POUND),
-    ("kip", 1000.0 * POUND),
-    ("kgf", 9.80665),
-];
-
-/// A pound-force in N.
-#[cfg(feature = "scenes")]
-const POUND: f64 = 4.4482216152605;
 
 /// Returns the length of a unit in metres, by its name; None where it is not known.
 pub fn length_in_metres(name: &str) -> Option<f64> {
@@ -57,17 +29,4 @@ pub(crate) fn in_si(units: &[(&str, f64)], name: &str) -> Option<f64> {
     let mut alike = units.iter().filter(|(known, _)| is_alike(known));
     let only = alike.next().filter(|_| alike.next().is_none());
     exact.or(only).map(|(_, size)| *size)
-}
-
-/// Returns the size of a unit of stress: one of its own, or a force per area, as N/mm², N/mm^2, kN/cm2 and
-/// lbf/in**2.
-#[cfg(feature = "scenes")]
-pub(crate) fn stress_in_si(name: &str) -> Option<f64> {
-    let plain = name.replace('²', "2").replace([' ', '^', '*', '(', ')'], "");
-    let quotient = || {
-        let (force, area) = plain.split_once('/')?;
-        let length = in_si(&LENGTHS, area.strip_suffix('2')?)?;
-        Some(in_si(&FORCES, force)? / (length * length))
-    };
-    in_si(&STRESSES, &plain).or_else(quotient)
 }

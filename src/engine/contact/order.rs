@@ -17,7 +17,7 @@ use std::collections::{HashMap, HashSet};
 use base::error::InputError;
 use paper::door::Call;
 use paper::mirror::Reading;
-use problem::model::{Model, NodeId, unordered};
+use problem::model::{Model, NodeId, Triangle, unordered};
 
 /// Returns the nodes of the contact surface in order along it, each once. A surface of one node,
 /// which bounds no contact edge, is that node.
@@ -30,17 +30,13 @@ pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
         return Ok(listed.into_iter().collect());
     }
     let (mut next, mut before) = (HashMap::new(), HashSet::new());
-    for triangle in &model.triangles {
-        for k in 0..3 {
-            let pair = [triangle.nodes[k], triangle.nodes[(k + 1) % 3]];
-            if !pair.iter().all(|n| listed.contains(n)) || model.sides.boundary(pair).is_none() {
-                continue;
-            }
-            let [a, b] = pair;
-            if next.insert(a, b).is_some() || !before.insert(b) {
-                let what = format!("the edges between the listed nodes branch at node {a} or {b}");
-                return Err(InputError::new("contact.cnt", what, "name one side of the outline"));
-            }
+    let is_own = |side: &[NodeId; 2]| {
+        side.iter().all(|n| listed.contains(n)) && model.sides.boundary(*side).is_some()
+    };
+    for [a, b] in model.triangles.iter().flat_map(Triangle::sides).filter(is_own) {
+        if next.insert(a, b).is_some() || !before.insert(b) {
+            let what = format!("the edges between the listed nodes branch at node {a} or {b}");
+            return Err(InputError::new("contact.cnt", what, "name one side of the outline"));
         }
     }
     let alone = |n: &&NodeId| !next.contains_key(*n) && !before.contains(*n);

@@ -29,6 +29,15 @@ impl Body {
     }
 }
 
+/// Returns the body of each of so many nodes, by its lowest one.
+pub fn lowest(nodes: usize, triangles: impl Iterator<Item = [NodeId; 3]>) -> Vec<usize> {
+    let sides = triangles.flat_map(|corners| {
+        let [a, b, c] = corners.map(NodeId::index);
+        [(a, b), (b, c)]
+    });
+    joined(nodes, sides)
+}
+
 /// Returns the bodies that `triangles` on `nodes` nodes form, by their lowest node. `material`
 /// names the material of each triangle.
 pub fn bodies<'a>(
@@ -36,11 +45,7 @@ pub fn bodies<'a>(
     triangles: &[Triangle],
     material: impl Fn(TriangleId) -> &'a str,
 ) -> Vec<Body> {
-    let sides = triangles.iter().flat_map(|triangle| {
-        let [a, b, c] = triangle.nodes.map(NodeId::index);
-        [(a, b), (b, c)]
-    });
-    let lowest = joined(nodes, sides);
+    let lowest = lowest(nodes, triangles.iter().map(|triangle| triangle.nodes));
     let mut bodies: BTreeMap<usize, Body> = BTreeMap::new();
     for (id, triangle) in TriangleId::all(triangles.len()).zip(triangles) {
         let body = bodies.entry(lowest[triangle.nodes[0].index()]).or_default();

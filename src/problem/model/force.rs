@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::Model;
 use super::ids::NodeId;
+use crate::element::area;
 use numbers::scalar::Scalar;
 
 /// A part of the load. On an edge it is uniform, per area of edge length times thickness; the body
@@ -49,11 +50,8 @@ impl Force {
             Force::Pressure(edge, pressure) => (edge, Some(number(pressure)), [T::zero(); 2]),
             Force::Traction(edge, traction) => (edge, None, traction.map(number)),
             Force::Body(nodes, force) => {
-                let [[ax, ay], [bx, by], [cx, cy]] =
-                    nodes.map(|node| model.coordinates(node).map(number));
-                let area =
-                    (((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / T::from_f64(2.0)).abs();
-                let part = area * number(model.thickness) / T::from_f64(3.0);
+                let corners = nodes.map(|node| model.coordinates(node).map(number));
+                let part = area(&corners).abs() * number(model.thickness) / T::from_f64(3.0);
                 return force.map(|x| number(x) * part);
             }
         };

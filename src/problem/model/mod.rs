@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
 
-pub use body::{Body, bodies};
+pub use body::{Body, bodies, lowest};
 pub use bounds::Bounds;
 pub use force::Force;
 #[cfg(feature = "scenes")]
@@ -53,6 +53,14 @@ pub struct Triangle {
     pub nodes: [NodeId; 3],
     /// Its material.
     pub material: Material,
+}
+
+impl Triangle {
+    /// Returns its sides, which leave it on their left.
+    pub fn sides(&self) -> [[NodeId; 2]; 3] {
+        let [a, b, c] = self.nodes;
+        [[a, b], [b, c], [c, a]]
+    }
 }
 
 /// An edge that the mesh names.

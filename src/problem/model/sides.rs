@@ -84,6 +84,6 @@ impl Sides {
 }
 
 /// Returns two nodes, the lower one first: one key for both directions of an edge.
-pub fn unordered([a, b]: [NodeId; 2]) -> [NodeId; 2] {
+pub fn unordered<N: Copy + Ord>([a, b]: [N; 2]) -> [N; 2] {
     [a.min(b), a.max(b)]
 }

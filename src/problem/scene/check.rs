@@ -1,10 +1,10 @@
 //! Checks of a scene file against its mesh: materials, restraints, contact surfaces, bodies.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::description::Description;
 use super::groups::Groups;
-use super::mesh::Mesh;
+use super::mesh::{Element, Mesh};
 use super::surface;
 use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Sides, TriangleId};
 use crate::modelling::{check_iterations, check_tolerance};
@@ -78,14 +78,14 @@ pub fn contact(
     contact.model().check()?;
     let nodes = surface::contact_nodes(mesh, groups, &contact.contact)?;
     let target = surface::target_edges(mesh, groups, &contact.target)?;
-    let (on_contact, on_target): (HashSet<usize>, HashSet<usize>) =
-        (nodes.iter().copied().collect(), target.iter().copied().collect());
-    for edge in mesh.of_dimension(1).filter(|e| on_target.contains(&e.number)) {
-        if let Some(n) = edge.nodes.iter().find(|n| on_contact.contains(n)) {
+    let on_contact: HashSet<NodeId> = nodes.iter().copied().collect();
+    let mut in_order = target.clone();
+    in_order.sort_unstable_by_key(|edge| edge.number);
+    for edge in in_order {
+        let shared = edge.ids::<2>().into_iter().filter(|n| on_contact.contains(n));
+        if let Some(n) = shared.clone().next() {
             let what = format!("contact node {n} is also on the target edge {}", edge.number);
-            let both_on = edge.nodes.iter().all(|n| on_contact.contains(n));
-            let is_outer = sides.boundary([0, 1].map(|k| NodeId::from_number(edge.nodes[k])));
-            let fix = match both_on && is_outer.is_some() {
+            let fix = match shared.count() == 2 && sides.boundary(edge.ids()).is_some() {
                 true => {
                     "that edge is in cnt and in trg: give the surface of each body a group of its own"
                 }
@@ -96,16 +96,10 @@ pub fn contact(
             return Err(InputError::new("contact", what, fix));
         }
     }
-    let place: HashMap<usize, EdgeId> = mesh
-        .of_dimension(1)
-        .enumerate()
-        .map(|(index, edge)| (edge.number, EdgeId::new(index)))
-        .collect();
-    Ok(ContactSurfaces {
-        nodes: nodes.into_iter().map(NodeId::from_number).collect(),
-        target: target.iter().map(|number| place[number]).collect(),
-        tolerance: contact.tolerance,
-    })
+    let edges: Vec<usize> = mesh.of_dimension(1).map(|edge| edge.number).collect();
+    let id = |edge: &Element| EdgeId::new(edges.partition_point(|number| *number < edge.number));
+    let target = target.into_iter().map(id).collect();
+    Ok(ContactSurfaces { nodes, target, tolerance: contact.tolerance })
 }
 
 /// Checks that what an axis alone does not hold is no node of a contact surface.
@@ -157,9 +151,8 @@ pub fn restrained_bodies(model: &Model) -> Result<()> {
 fn hinged_parts(model: &Model, surfaces: &HashSet<NodeId>) -> Result<()> {
     let triangles = TriangleId::all(model.triangles.len());
     let beside = triangles.clone().flat_map(|id| {
-        let [a, b, c] = model.triangle(id).nodes;
-        let sides = [[a, b], [b, c], [c, a]].map(|side| model.sides.beside(side)[0].triangle);
-        sides.map(|first| (first.index(), id.index()))
+        let first = |side| model.sides.beside(side)[0].triangle;
+        model.triangle(id).sides().map(|side| (first(side).index(), id.index()))
     });
     let lowest = joined(model.triangles.len(), beside);
     let mut parts: BTreeMap<usize, BTreeSet<NodeId>> = BTreeMap::new();

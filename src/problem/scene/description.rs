@@ -55,7 +55,7 @@ pub struct Description {
     #[serde(skip_serializing_if = "is_default")]
     pub contact: Option<Contact>,
     /// The number of iterations of the variants that the paper describes.
-    #[serde(default = "default_iterations", skip_serializing_if = "is_default_iterations")]
+    #[serde(default = "number::<ITERATIONS>", skip_serializing_if = "is::<ITERATIONS>")]
     pub iterations: usize,
     /// The variant that is run unless the command line names another; `unilateral` where none is given.
     #[serde(default, deserialize_with = "some_by_name", skip_serializing_if = "is_default")]
@@ -104,37 +104,32 @@ impl Description {
             restraints: Vec::new(),
             loads: Vec::new(),
             contact: None,
-            iterations: default_iterations(),
+            iterations: ITERATIONS,
             variant: None,
             drop_orphans: false,
         }
     }
 }
 
+/// The number of iterations of a scene that sets none, which is the paper's.
+const ITERATIONS: usize = 20;
+
 /// Returns the thickness of a scene that sets none, length.
 fn default_thickness() -> f64 {
     1.0
-}
-
-/// Returns the number of iterations of a scene that sets none, which is the paper's.
-fn default_iterations() -> usize {
-    20
-}
-
-fn default_load_steps() -> usize {
-    LOAD_STEPS
 }
 
 fn is_default_thickness(thickness: &f64) -> bool {
     *thickness == default_thickness()
 }
 
-fn is_default_iterations(iterations: &usize) -> bool {
-    *iterations == default_iterations()
+/// Returns a number that stands where a scene sets none.
+fn number<const N: usize>() -> usize {
+    N
 }
 
-fn is_default_load_steps(steps: &usize) -> bool {
-    *steps == LOAD_STEPS
+fn is<const N: usize>(number: &usize) -> bool {
+    *number == N
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -317,7 +312,7 @@ pub struct Contact {
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
     /// The number of equal steps in which `unilateral` applies the load of a stage.
-    #[serde(default = "default_load_steps", skip_serializing_if = "is_default_load_steps")]
+    #[serde(default = "number::<LOAD_STEPS>", skip_serializing_if = "is::<LOAD_STEPS>")]
     pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]

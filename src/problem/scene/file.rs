@@ -144,9 +144,13 @@ const MOST: usize = 1 << 20;
 fn to_be_chosen(text: &[u8]) -> Option<InputError> {
     let has_null = |text: &&[u8]| text.windows(4).any(|word| word == b"null");
     let text = Some(text).filter(|text| text.len() <= MOST).filter(has_null)?;
-    let scene: Value = serde_json::from_slice(text).ok()?;
-    let mut open = Vec::new();
-    collect_open(&scene, "", "", &mut open);
+    let mut scene: Value = serde_json::from_slice(text).ok()?;
+    let mut open: Vec<(String, String)> = Vec::new();
+    of_null(&mut scene, "", "", &mut |place, name, _| {
+        if OPEN.iter().any(|(field, _)| *field == name) {
+            open.push((place.into(), name.into()));
+        }
+    });
     let is_open = |name: &&str| open.iter().any(|(_, field)| field == *name);
     let fix = OPEN.iter().filter(|(name, _)| is_open(name)).map(|(_, words)| *words);
     let fix = format!("give each a value in place of null; {}", fix.collect::<Vec<_>>().join("; "));
@@ -155,20 +159,23 @@ fn to_be_chosen(text: &[u8]) -> Option<InputError> {
     (!open.is_empty()).then(|| InputError::new(places, what, fix))
 }
 
-/// Collects the places and names of the fields of [`OPEN`] that are null.
-fn collect_open(value: &Value, place: &str, name: &str, open: &mut Vec<(String, String)>) {
+/// Calls `found` with the place and the name of each field that is null, and with the field.
+pub(super) fn of_null(
+    value: &mut Value,
+    place: &str,
+    name: &str,
+    found: &mut dyn FnMut(&str, &str, &mut Value),
+) {
     match value {
-        Value::Null if OPEN.iter().any(|(field, _)| *field == name) => {
-            open.push((place.into(), name.into()));
-        }
-        Value::Object(fields) => fields.iter().for_each(|(name, value)| {
+        Value::Null => found(place, name, value),
+        Value::Object(fields) => fields.iter_mut().for_each(|(name, value)| {
             let dot = if place.is_empty() { "" } else { "." };
-            collect_open(value, &format!("{place}{dot}{name}"), name, open);
+            of_null(value, &format!("{place}{dot}{name}"), name, found);
         }),
-        Value::Array(items) => items.iter().enumerate().for_each(|(k, value)| {
-            collect_open(value, &format!("{place}[{k}]"), name, open);
+        Value::Array(items) => items.iter_mut().enumerate().for_each(|(k, value)| {
+            of_null(value, &format!("{place}[{k}]"), name, found);
         }),
-        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
 }
 

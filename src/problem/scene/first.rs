@@ -9,15 +9,14 @@ use serde_json::{Value, json};
 use super::Scene;
 use super::check;
 use super::description::{Description, Materials};
-use super::file::{self, text_of};
+use super::file::{self, of_null, text_of};
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::surface::Surface;
 use crate::element::Plane;
-use crate::model::{Bounds, Material, Model, NodeId, Sides};
+use crate::model::{Bounds, Material, Model, NodeId, Sides, lowest};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
-use numbers::joined::joined;
 
 /// The most entities for which lines of Gmsh are written.
 const MOST_LINES: usize = 20;
@@ -71,40 +70,16 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         Description { mesh: Some(name.into()), ..Description::new(Plane::Strain) };
     let mesh = file::mesh(&mut description, |_| Ok(file.to_vec()))?;
     mesh.check()?;
-    let groups = Groups::new(&mesh);
+    let (groups, body, orphans) = (Groups::new(&mesh), bodies(&mesh), mesh.orphans());
     let mut notes = Vec::new();
     let materials = materials(name, &mesh, &groups, &mut notes)?;
-    let body = bodies(&mesh);
     let (mut curves, mut inner): (Vec<Curve>, Vec<Curve>) =
         curves(&mesh, &groups, &body)?.into_iter().partition(|curve| curve.is_outline);
-    let contact = match pair(&curves) {
-        Some((gap, [cnt, trg], why)) => {
-            let [of_cnt, of_trg] = [cnt, trg].map(|place| &curves[place].group);
-            let reach = curves[cnt].longest().max(curves[trg].longest());
-            let apart = match gap > reach {
-                true => format!(", though they are {} apart, more than an edge", six_digits(gap)),
-                false => String::new(),
-            };
-            notes.push(format!(
-                "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}; \
-                 {of_cnt} is cnt, as {why}"
-            ));
-            let tolerance: Value =
-                six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
-            let scene =
-                json!({ "cnt": of_cnt, "trg": of_trg, "c_tll": tolerance, "friction": null });
-            let pair = [cnt.max(trg), cnt.min(trg)].map(|place| curves.remove(place));
-            Some((scene, pair))
-        }
-        None => {
-            if body.iter().collect::<BTreeSet<_>>().len() > mesh.orphans().len() + 1 {
-                notes.push(
-                    "contact: no two groups of edges of different bodies face each other".into(),
-                );
-            }
-            None
-        }
-    };
+    let contact = contact(&mut curves, &mut notes);
+    let distinct: BTreeSet<usize> = body.iter().copied().collect();
+    if contact.is_none() && distinct.len() > orphans.len() + 1 {
+        notes.push("contact: no two groups of edges of different bodies face each other".into());
+    }
     for group in [&mut curves, &mut inner] {
         group.sort_by(|a, b| a.height.total_cmp(&b.height));
     }
@@ -116,17 +91,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         Some(curve) => format!("{what}: on {}, the {extreme}", curve.group),
     };
     if groups.all(1).is_empty() {
-        let how = match is_of_gmsh(&mesh) {
-            true => {
-                "in Gmsh add those that you need, as in Physical Curve(\"bottom\") = {1}; and mesh again"
-            }
-            false => {
-                "in meshio add cells of the kind \"line\", with a tag and its name, and save again"
-            }
-        };
-        notes.push(format!(
-            "the mesh has no group of edges, by which a scene names restraints, loads and contact: {how}"
-        ));
+        notes.push(without_curves(&mesh));
     } else {
         notes.push(guess("restraint", lowest, "lowest"));
         notes.push(guess("load", highest, "highest"));
@@ -162,32 +127,57 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     if let Some((contact, _)) = contact {
         scene["contact"] = contact;
     }
-    if !mesh.orphans().is_empty() {
+    if !orphans.is_empty() {
         scene["drop_orphans"] = true.into();
-        let named = mesh.named(&mesh.orphans());
+        let named = mesh.named(&orphans);
         notes.push(format!("drop_orphans: nodes in no triangle are left out: {named}"));
     }
     notes.extend(in_solve(&scene, file));
     Ok(FirstScene { text: text_of(&scene), notes })
 }
 
+/// Takes the two curves that look like a contact out of the others; returns them behind the scene's contact.
+fn contact(curves: &mut Vec<Curve>, notes: &mut Vec<String>) -> Option<(Value, [Curve; 2])> {
+    let (gap, [cnt, trg], why) = pair(curves)?;
+    let [of_cnt, of_trg] = [cnt, trg].map(|place| &curves[place].group);
+    let reach = curves[cnt].longest().max(curves[trg].longest());
+    let apart = match gap > reach {
+        true => format!(", though they are {} apart, more than an edge", six_digits(gap)),
+        false => String::new(),
+    };
+    notes.push(format!(
+        "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}; {of_cnt} is \
+         cnt, as {why}"
+    ));
+    let tolerance = six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
+    let scene = json!({ "cnt": of_cnt, "trg": of_trg, "c_tll": tolerance, "friction": null });
+    Some((scene, [cnt.max(trg), cnt.min(trg)].map(|place| curves.remove(place))))
+}
+
+/// Says that a mesh has no group of edges.
+fn without_curves(mesh: &Mesh) -> String {
+    let how = match is_of_gmsh(mesh) {
+        true => {
+            "in Gmsh add those that you need, as in Physical Curve(\"bottom\") = {1}; and mesh again"
+        }
+        false => {
+            "in meshio add cells of the kind \"line\", with a tag and its name, and save again"
+        }
+    };
+    format!(
+        "the mesh has no group of edges, by which a scene names restraints, loads and contact: {how}"
+    )
+}
+
 /// Returns what `solve` would say of a first scene, whatever is chosen for what is null.
 fn in_solve(scene: &Value, file: &[u8]) -> Vec<String> {
     let mut chosen = scene.clone();
-    choose(&mut chosen, "");
+    of_null(&mut chosen, "", "", &mut |_, field, value| {
+        *value = if field == "nu" { 0.0 } else { 1.0 }.into();
+    });
     match Scene::build("first", text_of(&chosen).as_bytes(), |_| Ok(file.to_vec())) {
         Ok(scene) => scene.adapted().to_vec(),
         Err(why) => vec![format!("solve refuses it so far: {}; {}", why.what, why.fix)],
-    }
-}
-
-/// Gives some value to each field that is null.
-fn choose(value: &mut Value, field: &str) {
-    match value {
-        Value::Null => *value = if field == "nu" { 0.0 } else { 1.0 }.into(),
-        Value::Object(fields) => fields.iter_mut().for_each(|(name, value)| choose(value, name)),
-        Value::Array(items) => items.iter_mut().for_each(|value| choose(value, field)),
-        Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
 }
 
@@ -280,29 +270,24 @@ fn loose(
 
 /// Returns the body of each node, by its lowest one.
 fn bodies(mesh: &Mesh) -> Vec<usize> {
-    let sides = mesh.of_dimension(2).flat_map(|triangle| {
-        let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[k] - 1);
-        [(a, b), (b, c)]
-    });
-    joined(mesh.nodes.len(), sides)
+    lowest(mesh.nodes.len(), mesh.of_dimension(2).map(Element::ids))
 }
 
 /// Returns the groups of edges.
 fn curves(mesh: &Mesh, groups: &Groups, body: &[usize]) -> Result<Vec<Curve>> {
-    let corners = |triangle: &Element| [0, 1, 2].map(|k| NodeId::from_number(triangle.nodes[k]));
-    let triangles: Vec<[NodeId; 3]> = mesh.of_dimension(2).map(corners).collect();
+    let triangles: Vec<[NodeId; 3]> = mesh.of_dimension(2).map(Element::ids).collect();
     let sides = Sides::new(triangles.into_iter());
     let curve = |group: GroupRef| {
         let nodes = groups.nodes(&group, "")?;
         let outer = groups.members(1, &group, "")?.filter_map(|edge| {
-            let side = sides.boundary([0, 1].map(|k| NodeId::from_number(edge.nodes[k])))?;
+            let side = sides.boundary(edge.ids())?;
             Some(side.nodes.map(|node| mesh.xy(node.number())))
         });
         let edges: Vec<Ends> = outer.collect();
         let is_outline = edges.len() == groups.members(1, &group, "")?.count();
-        let heights = nodes.iter().map(|n| mesh.xy(*n)[1]);
+        let heights = nodes.iter().map(|n| mesh.xy(n.number())[1]);
         let height = heights.sum::<f64>() / nodes.len() as f64;
-        let bodies = nodes.iter().map(|n| body[n - 1]).collect();
+        let bodies = nodes.iter().map(|n| body[n.index()]).collect();
         Ok(Curve { group, bodies, edges, is_outline, height })
     };
     groups.all(1).into_iter().map(curve).collect()

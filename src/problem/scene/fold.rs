@@ -3,7 +3,7 @@
 
 use super::mesh::Mesh;
 use crate::element::Corners;
-use crate::model::{Model, NodeId, TriangleId};
+use crate::model::{Bounds, Model, NodeId, TriangleId};
 use base::error::{InputError, Result};
 
 /// How deep one triangle may lie in another, over their longest side: what rounding does where the nodes
@@ -68,8 +68,7 @@ struct Boxed {
     node: NodeId,
     corners: Corners<f64>,
     longest_side: f64,
-    low: [f64; 2],
-    high: [f64; 2],
+    bounds: Bounds,
 }
 
 /// Returns two triangles that lie over each other and may not; None where there are none.
@@ -77,25 +76,21 @@ fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
     let faces = Faces::new(model);
     let boxed = |id: TriangleId| {
         let corners @ [a, b, c] = model.corners(id);
-        let node = model.triangles[id.index()].nodes[0];
-        let bound = |by: fn(f64, f64) -> f64| [0, 1].map(|k| by(by(a[k], b[k]), c[k]));
+        let (node, bounds) = (model.triangle(id).nodes[0], Bounds::around(&corners));
         let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
         let longest_side = length(a, b).max(length(b, c)).max(length(c, a));
-        Boxed { id, node, corners, longest_side, low: bound(f64::min), high: bound(f64::max) }
+        Boxed { id, node, corners, longest_side, bounds }
     };
     let mut triangles: Vec<Boxed> = TriangleId::all(model.triangles.len()).map(boxed).collect();
     // A line sweeps the bodies along the axis on which it crosses fewer triangles at a time.
-    let crossed = [0, 1].map(|k| {
-        let along: f64 = triangles.iter().map(|one| one.high[k] - one.low[k]).sum();
-        let low = triangles.iter().map(|one| one.low[k]).fold(f64::INFINITY, f64::min);
-        let high = triangles.iter().map(|one| one.high[k]).fold(f64::NEG_INFINITY, f64::max);
-        along / (high - low)
-    });
+    let whole = model.bounds().size();
+    let crossed =
+        [0, 1].map(|k| triangles.iter().map(|one| one.bounds.size()[k]).sum::<f64>() / whole[k]);
     let axis = usize::from(crossed[1] < crossed[0]);
-    triangles.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
+    triangles.sort_by(|a, b| a.bounds.low[axis].total_cmp(&b.bounds.low[axis]));
     let mut crossed: Vec<&Boxed> = Vec::new();
     for one in &triangles {
-        crossed.retain(|other| other.high[axis] > one.low[axis]);
+        crossed.retain(|other| other.bounds.high[axis] > one.bounds.low[axis]);
         let is_over =
             |other: &&&Boxed| other.overlaps(one) && !faces.may_overlap(other.node, one.node);
         if let Some(other) = crossed.iter().find(is_over) {
@@ -108,7 +103,8 @@ fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
 
 impl Boxed {
     fn overlaps(&self, other: &Boxed) -> bool {
-        let meets = |k: usize| self.low[k] < other.high[k] && other.low[k] < self.high[k];
+        let [a, b] = [self.bounds, other.bounds];
+        let meets = |k: usize| a.low[k] < b.high[k] && b.low[k] < a.high[k];
         let depth = DEPTH * self.longest_side.max(other.longest_side);
         meets(0) && meets(1) && !self.is_apart(other, depth) && !other.is_apart(self, depth)
     }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::mesh::{ENTITIES, Element, Mesh};
+use crate::model::NodeId;
 use base::error::{InputError, Result};
 use base::suggestion::did_you_mean;
 
@@ -125,8 +126,7 @@ impl<'m> Groups<'m> {
     /// Returns the groups of elements of dimension `dim`, by ascending tag.
     pub fn all(&self, dim: usize) -> Vec<GroupRef> {
         let group = |((_, tag), _): (&(usize, usize), _)| {
-            let name = self.mesh.names.iter().find(|name| name.dim == dim && name.tag == *tag);
-            name.map_or(GroupRef::Tag(*tag), |name| GroupRef::Name(name.name.clone()))
+            self.mesh.name(dim, *tag).map_or(GroupRef::Tag(*tag), GroupRef::from)
         };
         self.places.range((dim, 0)..(dim + 1, 0)).map(group).collect()
     }
@@ -160,13 +160,13 @@ impl<'m> Groups<'m> {
     }
 
     /// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
-    pub fn nodes(&self, group: &GroupRef, place: &str) -> Result<BTreeSet<usize>> {
+    pub fn nodes(&self, group: &GroupRef, place: &str) -> Result<BTreeSet<NodeId>> {
         let has_elements = |dim: &usize| {
             self.tag(*dim, group).is_some_and(|tag| self.places.contains_key(&(*dim, tag)))
         };
         let dim = [1, 0, 2].into_iter().find(has_elements).unwrap_or(1);
         let members = self.members(dim, group, place)?;
-        Ok(members.flat_map(|element| element.nodes.iter().copied()).collect())
+        Ok(members.flat_map(|it| it.nodes.iter().map(|n| NodeId::from_number(*n))).collect())
     }
 
     /// Returns the tag of a group of elements of dimension `dim`. A name may be a tag as text.
@@ -218,8 +218,7 @@ impl<'m> Groups<'m> {
         let kind = ELEMENT_NAMES[dim];
         let tags = self.places.range((dim, 0)..(dim + 1, 0)).map(|((_, tag), _)| *tag);
         let named = |tag: usize| {
-            let name = self.mesh.names.iter().find(|n| n.dim == dim && n.tag == tag);
-            name.map_or(tag.to_string(), |name| format!("{:?} ({tag})", name.name))
+            self.mesh.name(dim, tag).map_or(tag.to_string(), |name| format!("{name:?} ({tag})"))
         };
         let names: Vec<String> = tags.clone().take(MOST_LISTED).map(named).collect();
         match tags.count() - names.len() {

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::description::{Load, LoadKind};
 use super::groups::{GroupRef, Groups};
-use super::mesh::{Element, Mesh};
+use super::mesh::Mesh;
 use crate::model::{CANCELLED, Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
@@ -36,8 +36,7 @@ pub fn apply(
         let place = format!("loads[{k}]");
         let own = match &load.kind {
             LoadKind::Force { node, force } => {
-                mesh.check_node(*node, &format!("{place}.node"))?;
-                vec![Force::Node(NodeId::from_number(*node), *force)]
+                vec![Force::Node(mesh.node(*node, &format!("{place}.node"))?, *force)]
             }
             LoadKind::Pressure { on, pressure } => {
                 on_edges(groups, &model.sides, on, &place, |edge| Force::Pressure(edge, *pressure))?
@@ -47,10 +46,8 @@ pub fn apply(
             }
             LoadKind::Weight { on, rho, g } => {
                 let triangles = groups.members(2, on, &format!("{place}.on"))?;
-                let corners =
-                    |triangle: &Element| [0, 1, 2].map(|k| NodeId::from_number(triangle.nodes[k]));
                 let force = g.map(|g| rho * g);
-                triangles.into_iter().map(|own| Force::Body(corners(own), force)).collect()
+                triangles.map(|own| Force::Body(own.ids(), force)).collect()
             }
         };
         add(&own, &mut total, model, k)?;
@@ -182,15 +179,15 @@ fn on_edges(
     let edges = groups.members(1, on, &format!("{place}.on"))?;
     let (mut loaded, mut parts) = (HashMap::new(), Vec::new());
     for edge in edges {
-        let [a, b] = [edge.nodes[0], edge.nodes[1]];
-        if let Some(first) = loaded.insert([a.min(b), a.max(b)], edge.number) {
+        let [a, b] = edge.ids();
+        if let Some(first) = loaded.insert(unordered([a, b]), edge.number) {
             let what = format!(
                 "edges {first} and {} of group {on} are the same (nodes {a} and {b})",
                 edge.number
             );
             return Err(InputError::new(place, what, "keep one: the load would count twice"));
         }
-        let beside = sides.beside([a, b].map(NodeId::from_number));
+        let beside = sides.beside([a, b]);
         let [triangle] = beside else {
             let what = format!(
                 "edge {} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of exactly one",

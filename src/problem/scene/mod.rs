@@ -197,11 +197,11 @@ impl Scene {
         let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
         let mut triangles = Vec::with_capacity(materials.len());
         triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| Triangle {
-            nodes: nodes(element),
+            nodes: element.ids(),
             material: kinds[*kind as usize].1,
         }));
         let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
-        let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
+        let edge = |edge: &Element| Edge { number: edge.number, nodes: edge.ids() };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
         let (restraints, holds) =
             support::holds(&mesh, &physical, &sides, &dropped, &description.restraints)?;
@@ -274,11 +274,6 @@ fn wide_tolerance(model: &Model) -> Option<String> {
             six_digits(shortest)
         )
     })
-}
-
-/// Returns the nodes of an element of the mesh, which has `N`.
-fn nodes<const N: usize>(element: &Element) -> [NodeId; N] {
-    std::array::from_fn(|k| NodeId::from_number(element.nodes[k]))
 }
 
 /// Returns the elements of the mesh file as rows of its table.

@@ -14,7 +14,7 @@ use super::Scene;
 use super::derived::Derived;
 use super::mesh::{Element, Mesh, Node, NodeNumbers};
 use super::surface::Surface;
-use crate::model::NodeId;
+use crate::model::{NodeId, unordered};
 use base::error::Result;
 
 impl Scene {
@@ -27,12 +27,11 @@ impl Scene {
     pub fn refined(&self) -> Result<Derived> {
         let (description, mesh) = self.source();
         // Each side of an element is halved once; a point has none.
-        let key = |a: usize, b: usize| [a.min(b), a.max(b)];
         let (mut parents, mut halves) = (Vec::new(), HashMap::new());
         for Element { nodes, .. } in &mesh.elements {
             let sides = if nodes.len() == 3 { 3 } else { nodes.len() - 1 };
             for k in 0..sides {
-                let ends = key(nodes[k], nodes[(k + 1) % nodes.len()]);
+                let ends = unordered([nodes[k], nodes[(k + 1) % nodes.len()]]);
                 halves.entry(ends).or_insert_with(|| {
                     parents.push(ends);
                     mesh.nodes.len() + parents.len()
@@ -48,7 +47,7 @@ impl Scene {
         // Elements are numbered from 1, with children in the place of their parent.
         let (mut elements, mut children) = (Vec::new(), HashMap::<usize, Vec<usize>>::new());
         for parent in &mesh.elements {
-            let half = |a, b| halves[&key(a, b)];
+            let half = |a, b| halves[&unordered([a, b])];
             let parts: Vec<NodeNumbers> = match parent.nodes[..] {
                 [a, b, c] => {
                     let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
@@ -74,9 +73,9 @@ impl Scene {
                 let outline = self.model.sides.outline();
                 let outline = outline.map(|side| side.nodes.map(NodeId::number));
                 let own = outline.filter(|ends| ends.iter().all(|n| listed.contains(n)));
-                let own: Vec<[usize; 2]> = own.map(|[a, b]| key(a, b)).collect();
+                let own: Vec<[usize; 2]> = own.map(unordered).collect();
                 let edges: HashSet<[usize; 2]> = own.iter().copied().collect();
-                let follow = |k: usize| Some(key(nodes[k], *nodes.get(k + 1)?));
+                let follow = |k: usize| Some(unordered([nodes[k], *nodes.get(k + 1)?]));
                 let followed: HashSet<[usize; 2]> = (0..nodes.len()).filter_map(follow).collect();
                 let half = |ends: [usize; 2]| edges.contains(&ends).then(|| halves[&ends]);
                 let along = (0..nodes.len())

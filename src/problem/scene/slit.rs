@@ -12,19 +12,16 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::fold::{DEPTH, Faces};
-use super::mesh::{Element, Mesh};
-use crate::model::{Model, NodeId};
-
-/// The direction along which nodes are sorted, by its slope: few outlines run across it.
-const SLOPE: f64 = 0.618_033_988_749_895;
+use super::mesh::Mesh;
+use crate::model::{Bounds, Model, NodeId};
+use crate::tree::Tree;
 
 /// The most places that are named.
 const MOST: usize = 5;
 
 /// Says which edges are a side of no triangle.
 pub fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
-    let nodes = |edge: &&Element| [0, 1].map(|k| NodeId::from_number(edge.nodes[k]));
-    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(nodes(edge)).is_empty());
+    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(edge.ids()).is_empty());
     let first = loose.next()?;
     let more = match loose.count() {
         0 => String::new(),
@@ -48,33 +45,24 @@ pub fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
             || on_contact.contains(&a) && on_target.contains(&b)
             || on_contact.contains(&b) && on_target.contains(&a)
     };
-    let corners = model.triangles.iter().flat_map(|triangle| {
-        let [a, b, c] = triangle.nodes;
-        [[a, b], [b, c], [c, a]]
-    });
-    let outline: Vec<[NodeId; 2]> =
-        corners.filter(|side| model.sides.boundary(*side).is_some()).collect();
-    let along = |n: NodeId| {
-        let [x, y] = model.nodes[n.index()];
-        x + SLOPE * y
-    };
-    let mut nodes: Vec<NodeId> = outline.iter().map(|side| side[0]).collect();
-    nodes.sort_by(|a, b| along(*a).total_cmp(&along(*b)));
+    let outline: Vec<[NodeId; 2]> = model.sides.outline().map(|side| side.nodes).collect();
+    let nodes = outline.iter().map(|[node, _]| model.coordinates(*node));
+    let tree = Tree::new(nodes.map(|at| [at, at]).enumerate());
     let (mut twins, mut hanging) = (BTreeSet::new(), BTreeSet::new());
     for &[p, q] in &outline {
-        let [[x, y], end] = [p, q].map(|n| model.nodes[n.index()]);
+        let ends @ [[x, y], end] = [p, q].map(|n| model.coordinates(n));
         let (dx, dy) = (end[0] - x, end[1] - y);
         let length = dx.hypot(dy);
         let depth = DEPTH * length;
-        let (low, high) = (along(p).min(along(q)), along(p).max(along(q)));
-        let from = nodes.partition_point(|n| along(*n) < low - 2.0 * depth);
-        let near = nodes[from..].iter().take_while(|n| along(**n) <= high + 2.0 * depth);
-        for &n in near.filter(|n| ![p, q].contains(n)) {
-            let [nx, ny] = model.nodes[n.index()];
+        let near = Bounds::around(&ends).padded(2.0 * depth);
+        tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+            let n = outline[k][0];
+            let [nx, ny] = model.coordinates(n);
             let (ax, ay) = (nx - x, ny - y);
             let (on, off) = ((ax * dx + ay * dy) / length, (ax * dy - ay * dx) / length);
-            if off.abs() > depth || on < -depth || on > length + depth {
-                continue;
+            let is_off = off.abs() > depth || on < -depth || on > length + depth;
+            if is_off || [p, q].contains(&n) {
+                return;
             }
             let twin = if on <= depth { Some(p) } else { (on >= length - depth).then_some(q) };
             match twin {
@@ -86,7 +74,7 @@ pub fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
                 }
                 Some(_) | None => {}
             }
-        }
+        });
     }
     let count = twins.len() + hanging.len();
     let named = |nodes: &[NodeId]| {

@@ -43,12 +43,12 @@ pub fn holds(
     for (k, restraint) in restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
         let displacements = displacements(restraint, &place)?;
-        let (name, site) = site((mesh, dropped), groups, restraint, &place)?;
+        let (name, on, nodes) = site((mesh, dropped), groups, restraint, &place)?;
         for (axis, displacement) in restraint.fix.iter().zip(displacements) {
             if !done.insert(format!("{name} {axis:?} {displacement:e}")) {
                 continue;
             }
-            for (node, direction) in directions(mesh, groups, sides, &site, *axis, &place)? {
+            for (node, direction) in directions(mesh, groups, sides, (on, &nodes), *axis, &place)? {
                 held.add(Hold { node, direction, displacement, restraint: Some(k) })?;
             }
         }
@@ -88,32 +88,21 @@ pub fn narrow(mesh: &Mesh, model: &Model) -> Option<String> {
     ))
 }
 
-/// Where a restraint acts.
-enum Site<'a> {
-    Group(&'a GroupRef),
-    Node(usize),
-}
-
-/// Returns the name of a restraint's place, and that place.
+/// Returns the name of a restraint's place, the group that it is, and its nodes, ascending.
 fn site<'a>(
     (mesh, dropped): (&Mesh, &[NodeId]),
     groups: &Groups,
     restraint: &'a Restraint,
     place: &str,
-) -> Result<(String, Site<'a>)> {
+) -> Result<(String, Option<&'a GroupRef>, Vec<NodeId>)> {
+    let one = |node: NodeId| (format!("node {}", mesh.named(&[node.number()])), None, vec![node]);
     match (&restraint.on, restraint.node, restraint.at) {
         (Some(on), None, None) => {
-            groups.nodes(on, &format!("{place}.on"))?;
-            Ok((on.text(), Site::Group(on)))
+            let nodes = groups.nodes(on, &format!("{place}.on"))?;
+            Ok((on.text(), Some(on), nodes.into_iter().collect()))
         }
-        (None, Some(n), None) => {
-            mesh.check_node(n, &format!("{place}.node"))?;
-            Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
-        }
-        (None, None, Some(at)) => {
-            let n = node_at(mesh, dropped, at, &format!("{place}.at"))?;
-            Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
-        }
+        (None, Some(n), None) => mesh.node(n, &format!("{place}.node")).map(one),
+        (None, None, Some(at)) => node_at(mesh, dropped, at, &format!("{place}.at")).map(one),
         _ => {
             let what = "a restraint is {on, fix}, {node, fix} or {at, fix}";
             Err(InputError::new(place, what, "give exactly one of on, node and at"))
@@ -121,8 +110,8 @@ fn site<'a>(
     }
 }
 
-/// Returns the number of the node at a place, of those that belong to a triangle.
-fn node_at(mesh: &Mesh, dropped: &[NodeId], [x, y]: [f64; 2], place: &str) -> Result<usize> {
+/// Returns the node at a place, of those that belong to a triangle.
+fn node_at(mesh: &Mesh, dropped: &[NodeId], [x, y]: [f64; 2], place: &str) -> Result<NodeId> {
     let points: Vec<[f64; 2]> = mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect();
     let is_kept = |n: &usize| dropped.binary_search(&NodeId::from_number(*n)).is_err();
     let kept: Vec<usize> = (1..=points.len()).filter(is_kept).collect();
@@ -131,7 +120,7 @@ fn node_at(mesh: &Mesh, dropped: &[NodeId], [x, y]: [f64; 2], place: &str) -> Re
     let nearest = kept.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let all: Vec<usize> = kept.iter().copied().filter(|n| distance(n) <= near).collect();
     match (&all[..], nearest) {
-        ([n], _) => Ok(*n),
+        ([n], _) => Ok(NodeId::from_number(*n)),
         ([], Some(nearest)) => {
             let [nx, ny] = points[nearest - 1].map(six_digits);
             let what = format!(
@@ -178,7 +167,7 @@ fn directions(
     mesh: &Mesh,
     groups: &Groups,
     sides: &Sides,
-    site: &Site,
+    (on, nodes): (Option<&GroupRef>, &[NodeId]),
     axis: Axis,
     place: &str,
 ) -> Result<Vec<(NodeId, [f64; 2])>> {
@@ -190,7 +179,7 @@ fn directions(
             InputError::new(format!("{place}.fix"), what, "give one such as [1, 1]")
         })?,
         Axis::Normal | Axis::Tangent => {
-            let Site::Group(on) = site else {
+            let Some(on) = on else {
                 let what = "a node has neither normal nor tangent";
                 let fix = "name a group of edges, or give {\"direction\": [1, 1]}";
                 return Err(InputError::new(format!("{place}.fix"), what, fix));
@@ -206,11 +195,7 @@ fn directions(
             return Ok(normals.into_iter().flat_map(each).collect());
         }
     };
-    let nodes = match site {
-        Site::Group(on) => groups.nodes(on, &format!("{place}.on"))?.into_iter().collect(),
-        Site::Node(n) => vec![*n],
-    };
-    Ok(nodes.into_iter().map(|n| (NodeId::from_number(n), vector)).collect())
+    Ok(nodes.iter().map(|node| (*node, vector)).collect())
 }
 
 /// Returns the outward normals of the nodes of a group of edges, of length 1: their mean by the lengths of
@@ -225,10 +210,9 @@ fn normals(
     let place = format!("{place}.on");
     let mut across: BTreeMap<NodeId, Vec<[f64; 2]>> = BTreeMap::new();
     for edge in groups.members(1, on, &place)? {
-        let ends = [edge.nodes[0], edge.nodes[1]];
-        let Some(side) = sides.boundary(ends.map(NodeId::from_number)) else {
-            let number = edge.number;
-            let what = format!("edge {number} (nodes {}) has no outer side", mesh.named(&ends));
+        let Some(side) = sides.boundary(edge.ids()) else {
+            let (number, nodes) = (edge.number, mesh.named(&edge.nodes));
+            let what = format!("edge {number} (nodes {nodes}) has no outer side");
             return Err(InputError::new(place, what, "name outer edges of a body"));
         };
         let [[ax, ay, _], [bx, by, _]] = side.nodes.map(|node| mesh.nodes[node.index()].xyz);

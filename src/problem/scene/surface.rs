@@ -1,12 +1,15 @@
 //! The two contact surfaces, in the order in which the listing visits them.
 
 use std::collections::HashMap;
+use std::fmt::Display;
+use std::hash::Hash;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
+use crate::model::{NodeId, unordered};
 use base::error::{InputError, Result};
 
 /// A contact surface, as a scene file describes it.
@@ -29,15 +32,9 @@ impl Surface {
     }
 }
 
-impl From<&str> for Surface {
-    fn from(name: &str) -> Self {
-        Surface::Group(name.into())
-    }
-}
-
-impl From<usize> for Surface {
-    fn from(tag: usize) -> Self {
-        Surface::Group(tag.into())
+impl<G: Into<GroupRef>> From<G> for Surface {
+    fn from(group: G) -> Self {
+        Surface::Group(group.into())
     }
 }
 
@@ -47,36 +44,38 @@ impl From<Vec<usize>> for Surface {
     }
 }
 
-/// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
+/// Returns the nodes of the contact surface `cnt`, in order along it. A list is taken as it
 /// is; a group's edges are followed as a chain from its first end.
 ///
 /// # Errors
 /// A group is no single chain or has an edge twice, or a number is no node.
-pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
+pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<NodeId>> {
     let place = "contact.cnt";
     match surface {
         Surface::Group(group) => {
             let edges: Vec<&Element> = groups.members(1, group, place)?.collect();
             no_edge_twice(&edges, place)?;
-            let edges: Vec<_> = edges.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect();
-            chain(&edges).map_err(|why| {
+            chain(&edges.iter().map(|edge| edge.ids()).collect::<Vec<_>>()).map_err(|why| {
                 let what = format!("group {group}: {why}");
                 InputError::new(place, what, "give the node numbers as a list, in order")
             })
         }
         Surface::Numbers(numbers) => {
             not_empty(numbers, place)?;
-            numbers.iter().try_for_each(|&n| mesh.check_node(n, place))?;
-            Ok(numbers.clone())
+            numbers.iter().map(|&n| mesh.node(n, place)).collect()
         }
     }
 }
 
-/// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
+/// Returns the target edges `trg`: a list as it is, a group in mesh order.
 ///
 /// # Errors
 /// A number is no edge, or an edge is there twice.
-pub fn target_edges(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
+pub fn target_edges<'m>(
+    mesh: &'m Mesh,
+    groups: &Groups<'m>,
+    surface: &Surface,
+) -> Result<Vec<&'m Element>> {
     let place = "contact.trg";
     let edges: Vec<&Element> = match surface {
         Surface::Group(group) => groups.members(1, group, place)?.collect(),
@@ -86,7 +85,7 @@ pub fn target_edges(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<V
         }
     };
     no_edge_twice(&edges, place)?;
-    Ok(edges.iter().map(|edge| edge.number).collect())
+    Ok(edges)
 }
 
 /// Returns the edge with the `elem` number `number`.
@@ -103,8 +102,8 @@ fn edge<'a>(mesh: &'a Mesh, number: usize, place: &str) -> Result<&'a Element> {
 fn no_edge_twice(edges: &[&Element], place: &str) -> Result<()> {
     let mut first = HashMap::new();
     for edge in edges {
-        let [a, b] = [edge.nodes[0], edge.nodes[1]];
-        if let Some(other) = first.insert([a.min(b), a.max(b)], edge.number) {
+        let [a, b] = edge.ids();
+        if let Some(other) = first.insert(unordered([a, b]), edge.number) {
             let what = match other == edge.number {
                 true => format!("edge {other} is named twice"),
                 false => format!("edges {other} and {} both join nodes {a} and {b}", edge.number),
@@ -127,8 +126,8 @@ fn not_empty(numbers: &[usize], place: &str) -> Result<()> {
 ///
 /// # Errors
 /// The edges branch, or are more than one chain.
-pub fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
-    let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
+pub fn chain<N: Copy + Display + Eq + Hash>(edges: &[[N; 2]]) -> Result<Vec<N>, String> {
+    let mut at: HashMap<N, Vec<usize>> = HashMap::new();
     for (k, edge) in edges.iter().enumerate() {
         edge.iter().for_each(|n| at.entry(*n).or_default().push(k));
     }

@@ -4,7 +4,7 @@
 //! lie across the line. Then the solution is symmetric too, the line moves only along itself, and
 //! the half right of it, restrained in x on the line, has the same solution.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 use nalgebra::DVector;
 
@@ -13,7 +13,8 @@ use super::description::{Axis, Description, LoadKind, Restraint};
 use super::groups::Groups;
 use super::mesh::{Element, KINDS, Mesh};
 use super::{Scene, Surface};
-use crate::model::{Edge, Model, NodeId, Triangle, TriangleId, unordered};
+use crate::model::{Bounds, Edge, Model, NodeId, Triangle, TriangleId, unordered};
+use crate::tree::Tree;
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
 const PLACE: f64 = 1e-9;
@@ -47,10 +48,7 @@ fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], nodes: &BTreeSet<N
     let (_, whole) = scene.source();
     let is_inside = |n: &usize| nodes.contains(&NodeId::from_number(*n));
     let own = whole.elements.iter().filter(|element| element.nodes.iter().all(is_inside));
-    let sides = triangles.iter().flat_map(|id| {
-        let [a, b, c] = scene.model.triangle(*id).nodes;
-        [[a, b], [b, c], [c, a]]
-    });
+    let sides = triangles.iter().flat_map(|id| scene.model.triangle(*id).sides());
     let on_line = sides.filter(|side| side.iter().all(|node| line.side(*node) == 0));
     let last = whole.elements.last().map_or(0, |element| element.number);
     let along = (last + 1..).zip(on_line).map(|(number, side)| Element {
@@ -144,12 +142,8 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
             return None;
         }
     }
-    // The image of a node is looked up in the cells of a grid around its place.
-    let cell = |x: f64| (x / (4.0 * place)).round() as i64;
-    let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
-    for n in model.node_ids().filter(|n| !model.is_dropped(*n)) {
-        cells.entry(model.coordinates(n).map(cell)).or_default().push(n);
-    }
+    let kept = model.node_ids().filter(|n| !model.is_dropped(*n));
+    let tree = Tree::new(kept.map(|n| (n.index(), [model.coordinates(n); 2])));
     let body = |n: NodeId| model.bodies.iter().position(|b| b.has(n));
     let mut images = Vec::with_capacity(model.nodes.len());
     for n in model.node_ids() {
@@ -158,14 +152,15 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
             continue;
         }
         let [nx, ny] = model.coordinates(n);
-        let [x, y] = [cell(2.0 * at - nx), cell(ny)];
-        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
-        let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
-        let is_there = |m: &NodeId| {
-            let [mx, my] = model.coordinates(*m);
-            (2.0 * at - nx - mx).hypot(ny - my) <= place
-        };
-        let found: Vec<NodeId> = near.filter(is_there).collect();
+        let near = Bounds::around(&[[2.0 * at - nx, ny]]).padded(2.0 * place);
+        let mut found = Vec::new();
+        tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+            let [mx, my] = model.nodes[k];
+            if (2.0 * at - nx - mx).hypot(ny - my) <= place {
+                found.push(NodeId::new(k));
+            }
+        });
+        found.sort_unstable();
         // Where bodies touch, two nodes are at one place: a body on the line is its own image.
         images.push(match found.as_slice() {
             [one] => *one,

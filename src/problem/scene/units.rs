@@ -5,8 +5,34 @@ use std::ops::RangeInclusive;
 use super::Scene;
 use super::description::{LoadKind, Units};
 use crate::model::Material;
-use crate::units::{FORCES, LENGTHS, SI, in_si, stress_in_si};
+use crate::units::{LENGTHS, in_si};
 use base::plain::six_digits;
+
+/// The units of stress and of force that are known, in Pa and N.
+const SI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+const STRESSES: [(&str, f64); 7] = [
+    SI[0],
+    SI[1],
+    SI[2],
+    SI[3],
+    ("bar", 1e5),
+    ("psi", POUND / (0.0254 * 0.0254)),
+    ("ksi", 1000.0 * POUND / (0.0254 * 0.0254)),
+];
+const FORCES: [(&str, f64); 9] = [
+    ("N", 1.0),
+    ("mN", 1e-3),
+    ("daN", 10.0),
+    ("kN", 1e3),
+    ("MN", 1e6),
+    ("lbf", POUND),
+    ("lb", POUND),
+    ("kip", 1000.0 * POUND),
+    ("kgf", 9.80665),
+];
+
+/// A pound-force in N.
+const POUND: f64 = 4.4482216152605;
 
 /// How far two units may be apart that are one, over the larger.
 const SAME: f64 = 1e-6;
@@ -18,6 +44,18 @@ impl Units {
         let known = in_si(&LENGTHS, own).is_some_and(|size| in_si(&LENGTHS, name) == Some(size));
         own.is_empty() || own == name || known
     }
+}
+
+/// Returns the size of a unit of stress: one of its own, or a force per area, as N/mm², N/mm^2, kN/cm2 and
+/// lbf/in**2.
+fn stress_in_si(name: &str) -> Option<f64> {
+    let plain = name.replace('²', "2").replace([' ', '^', '*', '(', ')'], "");
+    let quotient = || {
+        let (force, area) = plain.split_once('/')?;
+        let length = in_si(&LENGTHS, area.strip_suffix('2')?)?;
+        Some(in_si(&FORCES, force)? / (length * length))
+    };
+    in_si(&STRESSES, &plain).or_else(quotient)
 }
 
 /// Says that a stress times the square of a length is no force in the unit that the scene names, or which

@@ -145,9 +145,8 @@ fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> R
     let mut text = format!("*SURFACE, NAME={name}, TYPE=ELEMENT\n");
     let mut faces = 0;
     for (id, triangle) in model.triangle_ids().zip(&model.triangles) {
-        let corners = triangle.nodes;
-        for k in (0..3).filter(|&k| wanted([corners[k], corners[(k + 1) % 3]])) {
-            text += &format!("{id},S{}\n", k + 1);
+        for (_, k) in triangle.sides().into_iter().zip(1..).filter(|(side, _)| wanted(*side)) {
+            text += &format!("{id},S{k}\n");
             faces += 1;
         }
     }

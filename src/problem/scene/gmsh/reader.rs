@@ -56,28 +56,21 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         }
         body(&mut reader)?;
         let end = format!("$End{section}");
-        reader.tokens.keyword(&end, &end)?;
+        reader.tokens.keyword(&end)?;
     }
-    let Reader {
-        tokens, sections, mut names, names_have_dimensions, mut nodes, mut elements, ..
-    } = reader;
+    let Reader { tokens, sections, mut names, names_have_dimensions, nodes, elements, .. } = reader;
     for section in ["Nodes", "Elements"] {
         if !sections.contains(section) {
             return Err(tokens.refused(format!("the file has no section ${section}")));
         }
     }
-    nodes.sort_unstable_by_key(|node| node.number);
-    elements.sort_unstable_by_key(|element| element.number);
     if !names_have_dimensions {
         let groups = |e: &Element| e.physical.iter().map(|tag| (e.dim(), *tag)).collect::<Vec<_>>();
         let used: HashSet<(usize, usize)> = elements.iter().flat_map(groups).collect();
         names.retain(|group, _| used.contains(group));
     }
     let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
-    let names = names.into_iter().map(named).collect();
-    let mut mesh = Mesh { nodes, elements, names, ..Mesh::default() };
-    mesh.join_groups();
-    Ok(mesh)
+    Ok(Mesh::of(nodes, elements, names.into_iter().map(named).collect()))
 }
 
 /// Reads `$MeshFormat`, and skips the sections before it that other programs write.
@@ -87,7 +80,7 @@ fn version(tokens: &mut Tokens) -> Result<Version> {
         match &*section {
             "MeshFormat" => {
                 let version = format(tokens)?;
-                tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;
+                tokens.keyword("$EndMeshFormat")?;
                 return Ok(version);
             }
             "NOD" => return Err(other_version(tokens, "1")),
@@ -139,6 +132,9 @@ enum Version {
     V2,
     V4,
 }
+
+/// What the number of an element is expected to be.
+const NUMBER: &str = "an element's number, 1 or more";
 
 /// The parts of a file that have been read so far.
 struct Reader<'a> {
@@ -280,10 +276,7 @@ impl<'a> Reader<'a> {
         let declared = self.tokens.count_line("the number of elements")?;
         let is_text = self.tokens.encoding == Encoding::Text;
         while self.elements.len() < declared {
-            let mut number = 0;
-            if is_text {
-                number = self.tokens.int_from(1, "an element's number, 1 or more")?;
-            }
+            let mut number = if is_text { self.tokens.int_from(1, NUMBER)? } else { 0 };
             let kind_number = self.tokens.int("an element's type")?;
             let count = match is_text {
                 true => 1,
@@ -292,7 +285,7 @@ impl<'a> Reader<'a> {
             let tags = self.tokens.int_from(0, "an element's number of tags")?;
             for _ in 0..count {
                 if !is_text {
-                    number = self.tokens.int_from(1, "an element's number, 1 or more")?;
+                    number = self.tokens.int_from(1, NUMBER)?;
                 }
                 // The first tag is physical (0: none), the second geometric.
                 let mut first = [0; 2];
@@ -393,7 +386,7 @@ impl<'a> Reader<'a> {
             };
             let kind_number = self.tokens.int("an element's type")?;
             for _ in 0..self.tokens.size("the number of elements of a block")? {
-                let number = self.tokens.size_from(1, "an element's number, 1 or more")?;
+                let number = self.tokens.size_from(1, NUMBER)?;
                 let kind = self.kind(number, kind_number, (&physical, magnitude(tag)))?;
                 if kind.dim != dim {
                     return Err(self.tokens.refused(format!(

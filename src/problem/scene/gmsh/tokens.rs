@@ -106,13 +106,9 @@ impl<'a> Tokens<'a> {
             let digits = word.unwrap_or_default().trim_start_matches('-');
             let is_large = digits.len() > 9 && digits.bytes().all(|byte| byte.is_ascii_digit());
             let largest = if size_of::<T>() == 4 { i32::MAX as u64 } else { u64::MAX };
-            let found = shown(self.token());
-            let found = if is_large {
-                format!("{found}, beyond the largest number {largest}")
-            } else {
-                found
-            };
-            self.unexpected(found, expected)
+            let beyond = format!(", beyond the largest number {largest}");
+            let beyond = if is_large { &*beyond } else { "" };
+            self.unexpected(shown(self.token()) + beyond, expected)
         })
     }
 
@@ -196,10 +192,10 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the line `keyword`.
-    pub fn keyword(&mut self, keyword: &str, expected: &str) -> Result<()> {
+    pub fn keyword(&mut self, keyword: &str) -> Result<()> {
         self.word();
         if self.token() != keyword.as_bytes() {
-            return Err(self.unexpected(shown(self.token()), expected));
+            return Err(self.unexpected(shown(self.token()), keyword));
         }
         self.line_end()
     }
@@ -226,7 +222,7 @@ impl<'a> Tokens<'a> {
             return Err(self.unexpected("the end of the file", end));
         };
         self.at += distance;
-        self.keyword(&end, &end)
+        self.keyword(&end)
     }
 
     /// Skips a byte order mark at the beginning of the file.

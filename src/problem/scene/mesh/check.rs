@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::{Element, Mesh, Node, PhysicalName};
 use crate::element::{self, Corners};
+use crate::model::NodeId;
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
@@ -15,14 +16,14 @@ const PLANE: f64 = 1e-12;
 const LARGEST_TAG: usize = i32::MAX as usize;
 
 impl Mesh {
-    /// Checks that `n` is a node of the mesh.
+    /// Returns the node with number `n`.
     ///
     /// # Errors
     /// The mesh has no such node.
-    pub fn check_node(&self, n: usize, place: &str) -> Result<()> {
+    pub fn node(&self, n: usize, place: &str) -> Result<NodeId> {
         let r = self.nodes.len();
         if (1..=r).contains(&n) {
-            return Ok(());
+            return Ok(NodeId::from_number(n));
         }
         let what = match n {
             0 => "there is no node number 0".into(),
@@ -55,7 +56,7 @@ impl Mesh {
                 let what = format!("node {} is given twice", node.number);
                 return Err(InputError::new(place, what, "give each node once"));
             }
-            self.check_node(node.number, place)?;
+            self.node(node.number, place)?;
             if node.xyz.iter().any(|x| !x.is_finite()) {
                 let what = format!("node {} has a coordinate that is not finite", node.number);
                 return Err(InputError::new(place, what, "give finite coordinates"));
@@ -119,7 +120,7 @@ impl Mesh {
         }
         for (k, n) in nodes.iter().enumerate() {
             if *n == 0 || *n > self.nodes.len() {
-                self.check_node(*n, &format!("element {number}"))?;
+                self.node(*n, &format!("element {number}"))?;
             }
             if nodes[..k].contains(n) {
                 let what = format!("element {number} names node {n} twice: {nodes:?}");

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::element::Corners;
+use crate::model::NodeId;
 
 /// Nodes and elements in ascending order of number. As a document, of which the SHA-256 is taken, it
 /// is rows of numbers.
@@ -48,26 +49,12 @@ pub struct Mesh {
 
 /// A node of the mesh file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "NodeRow", into = "NodeRow")]
+#[serde(from = "(usize, f64, f64, f64)", into = "(usize, f64, f64, f64)")]
 pub struct Node {
     /// Its number in the file.
     pub number: usize,
     /// The coordinates x, y, z, length.
     pub xyz: [f64; 3],
-}
-
-type NodeRow = (usize, f64, f64, f64);
-
-impl From<NodeRow> for Node {
-    fn from((number, x, y, z): NodeRow) -> Self {
-        Node { number, xyz: [x, y, z] }
-    }
-}
-
-impl From<Node> for NodeRow {
-    fn from(Node { number, xyz: [x, y, z] }: Node) -> Self {
-        (number, x, y, z)
-    }
 }
 
 /// An element of the mesh: a point, an edge or a triangle.
@@ -91,19 +78,10 @@ impl Element {
     pub fn dim(&self) -> usize {
         self.nodes.len() - 1
     }
-}
 
-type ElementRow = (usize, usize, Tags, usize, NodeNumbers);
-
-impl From<ElementRow> for Element {
-    fn from((number, kind, physical, geometric, nodes): ElementRow) -> Self {
-        Element { number, kind, physical, geometric, nodes }
-    }
-}
-
-impl From<Element> for ElementRow {
-    fn from(Element { number, kind, physical, geometric, nodes }: Element) -> Self {
-        (number, kind, physical, geometric, nodes)
+    /// Returns its nodes, of which it has `N`.
+    pub fn ids<const N: usize>(&self) -> [NodeId; N] {
+        std::array::from_fn(|k| NodeId::from_number(self.nodes[k]))
     }
 }
 
@@ -126,17 +104,29 @@ pub struct PhysicalName {
     pub name: String,
 }
 
-impl From<(usize, usize, String)> for PhysicalName {
-    fn from((dim, tag, name): (usize, usize, String)) -> Self {
-        PhysicalName { dim, tag, name }
-    }
+/// A row of the element table.
+type ElementRow = (usize, usize, Tags, usize, NodeNumbers);
+
+/// Writes a record as a row of its fields, and reads it so.
+macro_rules! row {
+    ($record:ident $fields:tt = $row:tt: $types:ty) => {
+        impl From<$types> for $record {
+            fn from($row: $types) -> Self {
+                $record $fields
+            }
+        }
+
+        impl From<$record> for $types {
+            fn from($record $fields: $record) -> Self {
+                $row
+            }
+        }
+    };
 }
 
-impl From<PhysicalName> for (usize, usize, String) {
-    fn from(PhysicalName { dim, tag, name }: PhysicalName) -> Self {
-        (dim, tag, name)
-    }
-}
+row!(Node { number, xyz: [x, y, z] } = (number, x, y, z): (usize, f64, f64, f64));
+row!(Element { number, kind, physical, geometric, nodes } = (number, kind, physical, geometric, nodes): ElementRow);
+row!(PhysicalName { dim, tag, name } = (dim, tag, name): (usize, usize, String));
 
 /// The geometric entities of Gmsh, by dimension.
 pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
@@ -158,11 +148,17 @@ impl Mesh {
         [0, 1, 2].map(|k| self.xy(triangle.nodes[k]))
     }
 
+    /// Returns the name of a physical group; None where it has none.
+    pub(in crate::scene) fn name(&self, dim: usize, tag: usize) -> Option<&str> {
+        let name = self.names.iter().find(|name| name.dim == dim && name.tag == tag);
+        name.map(|name| &*name.name)
+    }
+
     /// Names the geometric entity of an element and its physical groups, as in `surface 2, "punch"`.
     pub(in crate::scene) fn whereabouts(&self, element: &Element) -> String {
         let dim = element.dim();
-        let group = |tag: &usize| match self.names.iter().find(|n| n.dim == dim && n.tag == *tag) {
-            Some(name) => format!(", {:?}", name.name),
+        let group = |tag: &usize| match self.name(dim, *tag) {
+            Some(name) => format!(", {name:?}"),
             None => format!(", group {tag}"),
         };
         let groups: String = element.physical.iter().map(group).collect();

@@ -1,6 +1,6 @@
 //! Meshes from the paper's own tables, and triangles of several physical groups.
 
-use super::{Element, KINDS, Mesh, Node, OtherKind};
+use super::{Element, KINDS, Mesh, Node, OtherKind, PhysicalName};
 use base::error::{InputError, Result};
 
 impl Mesh {
@@ -10,40 +10,44 @@ impl Mesh {
     /// # Errors
     /// A row has another form.
     pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self> {
-        let mut mesh = Mesh::default();
+        let mut nodes = Vec::with_capacity(node.len());
         for (k, &[number, x, y, z]) in node.iter().enumerate() {
             if number.fract() != 0.0 || !(1.0..9e15).contains(&number) {
                 let what = format!("{number} is no node number");
                 let fix = "number the nodes 1, 2, 3, ...";
                 return Err(InputError::new(format!("node[{k}]"), what, fix));
             }
-            mesh.nodes.push(Node { number: number as usize, xyz: [x, y, z] });
+            nodes.push(Node { number: number as usize, xyz: [x, y, z] });
         }
-        for (k, row) in elem.iter().enumerate() {
-            mesh.elements.push(element(row).map_err(|e| e.within(&format!("elem[{k}]")))?);
-        }
-        mesh.nodes.sort_by_key(|n| n.number);
-        mesh.elements.sort_by_key(|e| e.number);
-        mesh.join_groups();
-        Ok(mesh)
+        let row = |(k, row): (usize, &Vec<usize>)| {
+            element(row).map_err(|error| error.within(&format!("elem[{k}]")))
+        };
+        let elements = elem.iter().enumerate().map(row).collect::<Result<_>>()?;
+        Ok(Mesh::of(nodes, elements, Vec::new()))
     }
 
-    /// Joins the rows of a triangle that differ in number and physical group alone: MSH 2.2 and the
-    /// paper's tables have one for each group of a triangle. The first keeps all its groups, as the one
-    /// row of MSH 4.1 has them.
-    pub(in crate::scene) fn join_groups(&mut self) {
+    /// Puts nodes and elements in order, and joins the rows of a triangle that differ in number and physical
+    /// group alone: MSH 2.2 and the paper's tables have one for each group of a triangle. The first keeps
+    /// all its groups, as the one row of MSH 4.1 has them.
+    pub(in crate::scene) fn of(
+        mut nodes: Vec<Node>,
+        mut elements: Vec<Element>,
+        names: Vec<PhysicalName>,
+    ) -> Self {
+        nodes.sort_by_key(|node| node.number);
+        elements.sort_by_key(|element| element.number);
         let mut rows: Vec<([usize; 3], usize, usize)> = Vec::new();
-        rows.extend(self.elements.iter().enumerate().filter_map(|(place, element)| {
+        rows.extend(elements.iter().enumerate().filter_map(|(place, element)| {
             let &[a, b, c] = &element.nodes[..] else { return None };
             Some(([a, b, c], element.geometric, place))
         }));
         rows.sort_unstable();
-        let mut is_joined = vec![false; self.elements.len()];
+        let mut is_joined = vec![false; elements.len()];
         for row in rows.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter(|rows| rows.len() > 1) {
             let first = row[0].2;
             for &(_, _, place) in &row[1..] {
-                let tags = self.elements[place].physical.clone();
-                let kept = &mut self.elements[first].physical;
+                let tags = elements[place].physical.clone();
+                let kept = &mut elements[first].physical;
                 if !tags.is_empty() && tags.iter().all(|tag| !kept.contains(tag)) {
                     kept.extend(tags);
                     kept.sort_unstable();
@@ -52,7 +56,8 @@ impl Mesh {
             }
         }
         let mut is_joined = is_joined.into_iter();
-        self.elements.retain(|_| !is_joined.next().expect("one for each element"));
+        elements.retain(|_| !is_joined.next().expect("one for each element"));
+        Mesh { nodes, elements, names, ..Mesh::default() }
     }
 }
 
