@@ -13,7 +13,6 @@ use super::range::inside_out;
 use super::request::Request;
 use base::choices;
 use base::exit::ExitStatus;
-use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
 use problem::element::State;
@@ -61,54 +60,9 @@ pub struct Step {
 pub enum Detail {
     /// An iteration of a variant that the paper describes: the pairs that `c_cnt` found in the shape at the
     /// start.
-    Published(FoundPairs),
+    Published(Pairs<f64>),
     /// An iteration of the active set under `unilateral`.
     Unilateral(Unilateral),
-}
-
-/// The pairs of an iteration in the arrays of `c_cnt`, but of `k_cnt`, which has a row for each node of
-/// the mesh, only the rows in which something is written.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FoundPairs {
-    /// The `elem` number of each contact node's target edge; 0 for none.
-    pub ct: Column<usize>,
-    /// The vertical distance from contact node to target line, > 0 with the line above, length.
-    pub yt: Column<f64>,
-    /// The status of each contact node: 1 in contact, 0 not.
-    pub dy: Column<usize>,
-    /// The number of each node with master nodes, ascending, with its row: master, weight, master, weight.
-    pub masters: Vec<(usize, [f64; 4])>,
-    nodes: usize,
-}
-
-impl FoundPairs {
-    /// Keeps what was found.
-    pub fn new<T: Scalar>(pairs: &Pairs<T>) -> Self {
-        let row = |node: usize| (node, [1, 2, 3, 4].map(|j| pairs.k_cnt[(node, j)].to_f64()));
-        let is_written = |(_, row): &(usize, [f64; 4])| row.iter().any(|x| *x != 0.0);
-        let nodes = pairs.k_cnt.rows();
-        FoundPairs {
-            ct: pairs.ct.clone(),
-            yt: pairs.yt.map(T::to_f64),
-            dy: pairs.dy.clone(),
-            masters: (1..=nodes).map(row).filter(is_written).collect(),
-            nodes,
-        }
-    }
-
-    /// Returns `k_cnt`, R x 4.
-    pub fn k_cnt(&self) -> Table<f64> {
-        let mut table = Table::filled(self.nodes, 4, 0.0);
-        for (node, row) in &self.masters {
-            (1..).zip(row).for_each(|(j, x)| table[(*node, j)] = *x);
-        }
-        table
-    }
-
-    /// Returns all arrays of `c_cnt`.
-    pub fn whole(&self) -> Pairs<f64> {
-        Pairs { ct: self.ct.clone(), yt: self.yt.clone(), dy: self.dy.clone(), k_cnt: self.k_cnt() }
-    }
 }
 
 /// An iteration of the active set.
