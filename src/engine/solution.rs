@@ -22,7 +22,7 @@ use problem::model::{Dof, Model, NodeId};
 pub(super) const APART: f64 = 1e-6;
 
 /// A step: one iteration of a published variant, or one of the active set.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The number of the step, from 1.
     pub k: usize,
@@ -56,7 +56,7 @@ pub struct Step {
 }
 
 /// The results of a step that depend on the kind of variant.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Detail {
     /// An iteration of a variant that the paper describes: the pairs that `c_cnt` found in the shape at the
     /// start.
@@ -66,7 +66,7 @@ pub enum Detail {
 }
 
 /// An iteration of the active set.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Unilateral {
     /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
     /// second.
@@ -262,7 +262,7 @@ pub struct Cycle {
 }
 
 /// The solution of a request.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// The request that was solved.
     pub request: Request,
@@ -289,12 +289,10 @@ pub struct Solution {
     pub equilibrium: Option<Equilibrium>,
 }
 
-/// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups,
-/// or beyond the end of the other one. What was found is then an equilibrium of bodies that pass through each
-/// other there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Nodes of outlines that lie inside another body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Overlap {
-    /// How many they are: those deeper than rounding and than the height of the arcs over the edges there.
+    /// How many they are.
     pub nodes: usize,
     /// The deepest.
     pub node: NodeId,
@@ -305,7 +303,9 @@ pub struct Overlap {
 }
 
 impl Overlap {
-    /// Returns what there is among nodes inside a body, the deepest first.
+    /// Returns what there is among nodes inside a body, the deepest first, that contact does not watch, as they
+    /// are in none of its groups or beyond the end of the other one. What was found is then an equilibrium of
+    /// bodies that pass through each other there.
     pub(super) fn of(inside: &[InsideNode]) -> Option<Self> {
         let unwatched: Vec<_> =
             inside.iter().filter(|inside| inside.watched == Watched::Not).collect();

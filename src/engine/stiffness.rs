@@ -19,7 +19,7 @@ pub struct Stiffness<T = f64> {
     triangles: Vec<Element<T>>,
     /// The stiffness of the springs on which each node of a triangle stands, over the mean diagonal entry
     /// of its matrix.
-    springs: T,
+    pub(super) springs: T,
 }
 
 /// A material in the numbers of a run.

@@ -12,6 +12,7 @@
 use serde::Serialize;
 
 use problem::model::{Bounds, Model};
+use problem::tree::Tree;
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it
 /// in one step, which the contact search is not made for either.
@@ -38,21 +39,15 @@ impl Candidates {
         if points.is_empty() {
             return None;
         }
-        // Each edge looks only at the nodes beside it along the longer side of the surface.
-        let [width, height] = Bounds::around(&points).size();
-        let axis = usize::from(height > width);
-        let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
+        let tree = Tree::new(points.iter().map(|point| [*point; 2]).enumerate());
         let mut found = vec![0; points.len()];
         for edge in model.target_edges() {
             let grown = tolerance + MARGIN * model.length(edge.nodes);
             let ends = edge.nodes.map(|node| model.coordinates(node));
             let near = Bounds::around(&ends).padded(grown);
-            let from = order.partition_point(|k| points[*k][axis] < near.low[axis]);
-            let beside = order[from..].iter().take_while(|k| points[**k][axis] <= near.high[axis]);
-            for k in beside.filter(|k| near.contains(points[**k])) {
-                found[*k] += 1;
-            }
+            tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+                found[k] += usize::from(near.contains(points[k]));
+            });
         }
         Some(Candidates {
             nodes: points.len(),

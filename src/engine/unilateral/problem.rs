@@ -13,9 +13,10 @@ use crate::contact::{
     ContactForce, InsideNode, Pairing, Sense, Status, Surfaces, Watched, contact_forces,
 };
 use crate::elimination::{Constraint, Motion};
+use crate::linear::EliminatedLoad;
 use crate::range::inside_out;
 use crate::reactions::supports;
-use crate::reduction::{ReducedLoad, Reduction};
+use crate::reduction::Reduction;
 use crate::request::Request;
 use crate::solution::{APART, Cycle, max_displacement};
 use crate::stiffness::Stiffness;
@@ -78,8 +79,6 @@ pub(super) struct Problem<'a> {
     pub(super) reduction: Option<Reduction>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
-    /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
-    pub(super) springs: f64,
     /// The target that each contact node faces in the initial shape.
     initial: Arc<Vec<Option<Pairing>>>,
 }
@@ -91,7 +90,7 @@ pub(super) struct Setting<'a> {
     /// The part of the path that is applied; whole numbers end stages.
     pub(super) part: f64,
     /// The load on the contact surfaces; None where states are not looked for on these.
-    pub(super) reduced: Option<ReducedLoad>,
+    pub(super) reduced: Option<EliminatedLoad>,
     /// Whether the equations of the whole bodies are solved, also by the factors of those on the surfaces.
     pub(super) whole: bool,
     /// The displacements from which slips count, length.
@@ -200,7 +199,6 @@ impl<'a> Problem<'a> {
                 mu => mu,
             },
             initial,
-            springs: 0.0,
         })
     }
 
@@ -212,7 +210,6 @@ impl<'a> Problem<'a> {
             reduction: None,
             stiffness: Stiffness::on_springs(self.model, stiffness),
             initial: Arc::clone(&self.initial),
-            springs: stiffness,
             ..*self
         }
     }
@@ -272,9 +269,13 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
-    pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
-        let gap = |p: &Pairing| p.gap_after(self.model, u);
-        config.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
+    pub(super) fn gaps(&self, pairings: &[Option<Pairing>], u: &DVector<f64>) -> Vec<Option<f64>> {
+        pairings.iter().map(|p| Some(p.as_ref()?.gap_after(self.model, u))).collect()
+    }
+
+    /// Returns the gap of each entry before any load, length.
+    pub(super) fn initial_gaps(&self) -> Vec<Option<f64>> {
+        self.gaps(&self.initial, &DVector::zeros(self.model.dofs()))
     }
 
     /// Returns the status with which an entry closes.
@@ -362,21 +363,16 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns whether a node stands inside the target before any load.
-    pub(super) fn overlaps(&self, config: &Configuration) -> bool {
-        self.initial_gaps(config).iter().flatten().any(|gap| *gap < -self.closed)
+    pub(super) fn overlaps(&self) -> bool {
+        self.initial_gaps().iter().flatten().any(|gap| *gap < -self.closed)
     }
 
     /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
     pub(super) fn is_held_initially(&self, config: &Configuration) -> bool {
-        let statuses = self.closed_within(config, &self.initial_gaps(config), self.closed);
+        let statuses = self.closed_within(config, &self.initial_gaps(), self.closed);
         let before = DVector::zeros(self.model.dofs());
         let setting = self.setting(0.0, &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
-    }
-
-    /// Returns the gap of each entry before any load, length.
-    pub(super) fn initial_gaps(&self, config: &Configuration) -> Vec<Option<f64>> {
-        self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
     /// Returns the height of the arcs over the edges of curved surfaces at the nodes in contact, and how far
@@ -385,10 +381,9 @@ impl<'a> Problem<'a> {
     /// target and the smallest gap left, where arcs on both sides may close it. None where edges meet at less
     /// than the largest strain, rad, which irons them out.
     pub(super) fn coarse_facets(&self, last: &Iteration, strain: f64) -> Option<[f64; 2]> {
-        let at_rest = self.at_rest();
         let is_apart = !last.statuses.iter().any(|status| status.is_closed());
-        let gaps = if is_apart { last.gaps.clone() } else { self.initial_gaps(&at_rest) };
-        let pairs = at_rest.pairings.iter().zip(gaps).zip(&last.statuses);
+        let gaps = if is_apart { last.gaps.clone() } else { self.initial_gaps() };
+        let pairs = self.initial.iter().zip(gaps).zip(&last.statuses);
         let pairs = pairs.filter(|(_, status)| is_apart || status.is_closed());
         let (pairings, gaps): (Vec<&Pairing>, Vec<f64>) =
             pairs.filter_map(|((pairing, gap), _)| Some((pairing.as_ref()?, gap?))).unzip();

@@ -10,11 +10,9 @@ use super::worksheet::Worksheet;
 use mathcad::Conjunction;
 use mathcad::array::{Column, Table, max, min, rows};
 use numbers::scalar::Scalar;
-use serde::Serialize;
 
 /// The arrays that `c_cnt` computes; the listing returns `k_cnt`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "T: Scalar + Serialize")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pairs<T> {
     /// The `elem` number of each contact node's target edge; 0 for none.
     pub ct: Column<usize>,
