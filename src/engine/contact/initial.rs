@@ -41,7 +41,7 @@ impl Surfaces {
         if let Some((node, point)) = inside.first() {
             let nodes: Vec<NodeId> =
                 point.masters.iter().map(|(master, _)| *master).chain([*node]).collect();
-            let facet_height = self.facet_height(&nodes, &model.nodes, 0.0);
+            let facet_height = self.facet_height(&nodes, 0.0);
             let (nodes, depth) = (inside.len(), -point.gap);
             return Some(InitialGaps::Overlap(Overlap { nodes, node: *node, depth, facet_height }));
         }

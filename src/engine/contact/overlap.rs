@@ -75,7 +75,7 @@ impl Surfaces {
             let placed = PlacedTriangles::new(model, body, &nodes, shape);
             for node in nodes.into_iter().filter(|node| placed.contain(*node, shape)) {
                 let Some((depth, [a, b])) = whole.nearest(body, node, shape) else { continue };
-                let height = [node, a, b].map(|at| whole.height_near(at, &model.nodes));
+                let height = [node, a, b].map(|at| whole.height_near(at));
                 let height = height.into_iter().fold(0.0, f64::max);
                 // Whether the node lies over an edge of the other group, not past its end.
                 let over = |own: &Surface, other: &Outline| {
@@ -105,9 +105,9 @@ impl Surfaces {
 impl Surface {
     /// Returns the largest height of the arcs over the edges that meet at a node, from either of their ends,
     /// length.
-    fn height_near(&self, node: NodeId, shape: &[Vector]) -> f64 {
+    fn height_near(&self, node: NodeId) -> f64 {
         let ends = self.at[&node].iter().flat_map(|k| self.edges[*k]);
-        ends.map(|end| self.height_at(end, shape)).fold(0.0, f64::max)
+        ends.map(|end| self.height_at(end)).fold(0.0, f64::max)
     }
 
     /// Returns the distance of a node from the nearest edge of a body's outline that does not end at it,

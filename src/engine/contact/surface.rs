@@ -111,25 +111,18 @@ impl Surface {
         if is_bend { unit(along) } else { normal }
     }
 
-    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the
-    /// surface ends.
-    fn meeting(&self, node: NodeId, shape: &[Vector]) -> Option<[PlacedEdge; 2]> {
-        let [k, l] = self.at.get(&node)?[..] else { return None };
-        let order = if self.edges[k][1] == node { [k, l] } else { [l, k] };
-        Some(order.map(|k| PlacedEdge::new(self.edges[k], shape)))
-    }
-
-    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth
-    /// surface: an eighth of an edge's length times the angle between their normals, length; 0 where they
+    /// Returns the height of the arc of a circle over the undeformed edges that meet at a node in a bend of a
+    /// smooth surface: an eighth of an edge's length times the angle between their normals, length; 0 where they
     /// meet in no bend.
-    pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        self.bend_at(node, shape).map_or(0.0, |[_, height]| height)
+    pub(super) fn height_at(&self, node: NodeId) -> f64 {
+        self.bend_at(node).map_or(0.0, |[_, height]| height)
     }
 
-    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface,
-    /// rad, and [`Surface::height_at`] there; None where they meet in no bend.
-    fn bend_at(&self, node: NodeId, shape: &[Vector]) -> Option<[f64; 2]> {
-        let [a, b] = self.meeting(node, shape)?;
+    /// Returns the angle between the normals of the undeformed edges that meet at a node in a bend of a smooth
+    /// surface, rad, and [`Surface::height_at`] there; None where they meet in no bend.
+    fn bend_at(&self, node: NodeId) -> Option<[f64; 2]> {
+        let [k, l] = self.at.get(&node)?[..] else { return None };
+        let [a, b] = [k, l].map(|k| &self.undeformed[k]);
         let angle = dot(a.tangent, b.normal).abs().atan2(dot(a.normal, b.normal));
         (dot(a.normal, b.normal) > BEND).then_some([angle, angle * a.length.max(b.length) / 8.0])
     }
@@ -262,12 +255,11 @@ impl Surfaces {
         self.contact.across.contains_key(&node)
     }
 
-    /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length;
-    /// 0 where edges meet at less than an angle, rad.
-    pub fn facet_height(&self, nodes: &[NodeId], shape: &[Vector], least: f64) -> f64 {
-        let bend = |node: &NodeId| {
-            self.contact.bend_at(*node, shape).or_else(|| self.target.bend_at(*node, shape))
-        };
+    /// Returns the largest height of an arc over an undeformed edge at some nodes of either surface, length; 0
+    /// where edges meet at less than an angle, rad.
+    pub fn facet_height(&self, nodes: &[NodeId], least: f64) -> f64 {
+        let bend =
+            |node: &NodeId| self.contact.bend_at(*node).or_else(|| self.target.bend_at(*node));
         let bends = nodes.iter().filter_map(bend).filter(|[angle, _]| *angle > least);
         bends.map(|[_, height]| height).fold(0.0, f64::max)
     }

@@ -385,7 +385,7 @@ fn step(
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
             pairings: Arc::clone(&config.pairings),
-            friction_needed: friction_needed(statuses, &solution.forces),
+            friction_needed: friction_needed(&solution.forces),
             friction: solution.friction.clone(),
             springs: iteration.springs,
         }),
@@ -393,9 +393,8 @@ fn step(
 }
 
 /// Returns the largest shear over pressure of a node that is pressed by more than rounding.
-fn friction_needed(statuses: &[Status], forces: &[ContactForce]) -> Option<f64> {
-    let closed = statuses.iter().zip(forces).filter(|(status, _)| status.is_closed());
-    let known = closed.map(|(_, force)| force).filter(|force| !force.undetermined);
+fn friction_needed(forces: &[ContactForce]) -> Option<f64> {
+    let known = forces.iter().filter(|force| !force.undetermined);
     let least = ROUNDING_OF_A_FORCE * known.clone().fold(0.0, |most, f| f.normal.abs().max(most));
     let pressed = known.filter(|force| force.normal > least);
     pressed.map(|force| force.tangent.abs() / force.normal).reduce(f64::max)

@@ -389,7 +389,7 @@ impl<'a> Problem<'a> {
             pairs.filter_map(|((pairing, gap), _)| Some((pairing.as_ref()?, gap?))).unzip();
         let masters = pairings.iter().flat_map(|p| p.masters.iter().map(|(node, _)| *node));
         let nodes: Vec<NodeId> = pairings.iter().map(|p| p.node).chain(masters).collect();
-        let height = self.surfaces.facet_height(&nodes, &self.model.nodes, strain);
+        let height = self.surfaces.facet_height(&nodes, strain);
         let [least, most] = [f64::min, f64::max].map(|of| gaps.iter().copied().reduce(of));
         let (compared, part) = match is_apart {
             true => (least?, BOTH),
