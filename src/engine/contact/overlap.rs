@@ -8,7 +8,7 @@
 //!      body's outline              enter each other
 //! ```
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::outline::Outline;
 use super::pairing::Vector;
@@ -51,13 +51,13 @@ pub(super) struct PlacedTriangles {
 impl Surfaces {
     /// Returns the nodes of all outlines that lie inside another body in a shape, given as the coordinates of
     /// each node, length, the deepest first; where both surfaces are one body's, inside that body too.
-    /// `facing` are the contact nodes that face the target, `closed` those of them that are in contact;
-    /// without contact there are none.
+    /// `facing` are the contact nodes that face the target, with whether they are in contact; without contact
+    /// there are none.
     pub fn inside(
         &self,
         model: &Model,
         shape: &[Vector],
-        [facing, closed]: [&HashSet<NodeId>; 2],
+        facing: &HashMap<NodeId, bool>,
     ) -> Vec<InsideNode> {
         let target = model.target();
         let whole = Surface::new(model, model.sides.outline().map(|side| side.nodes).collect());
@@ -82,9 +82,9 @@ impl Surfaces {
                     let faced = other.faced((node, own), [shape, &model.nodes]);
                     Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
-                let watched = if facing.contains(&node)
+                let watched = if let Some(is_closed) = facing.get(&node)
                     && over(&self.contact, &target_outline)
-                        .is_some_and(|is_over| is_over || closed.contains(&node))
+                        .is_some_and(|is_over| is_over || *is_closed)
                 {
                     Watched::Contact
                 } else if self.target.at.contains_key(&node)

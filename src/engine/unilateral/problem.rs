@@ -2,7 +2,6 @@
 //! impose.
 
 use std::cell::LazyCell;
-use std::collections::HashSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -402,10 +401,8 @@ impl<'a> Problem<'a> {
     /// contact does not watch deeper than rounding and the facets of curved surfaces, the others deeper than
     /// [`UNSEEN`].
     pub(super) fn inside(&self, config: &Configuration, last: &Iteration) -> Vec<InsideNode> {
-        let facing = config.pairings.iter().flatten().map(|pairing| pairing.node).collect();
-        let closed = config.pairings.iter().zip(&last.statuses);
-        let closed = closed.filter(|(_, status)| status.is_closed());
-        let closed = closed.filter_map(|(pairing, _)| Some(pairing.as_ref()?.node)).collect();
+        let facing = config.pairings.iter().zip(&last.statuses);
+        let facing = facing.filter_map(|(p, status)| Some((p.as_ref()?.node, status.is_closed())));
         let u = &last.solution.u;
         let shape = self.model.shape(u);
         // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own
@@ -413,7 +410,7 @@ impl<'a> Problem<'a> {
         if inside_out(self.model, &shape).next().is_some() {
             return Vec::new();
         }
-        let mut found = self.surfaces.inside(self.model, &shape, [&facing, &closed]);
+        let mut found = self.surfaces.inside(self.model, &shape, &facing.collect());
         let sees_target = match self.request.contact.coupling {
             Coupling::Nts => false,
             Coupling::Mortar => true,
@@ -435,9 +432,8 @@ impl<'a> Problem<'a> {
     /// coordinates have it, length: the deepest of those within [`WRITTEN`]. 0 where all coordinates have all
     /// their digits: no part of what the load does is taken for rounding.
     fn written(&self) -> f64 {
-        let facing = self.initial.iter().flatten().map(|pairing| pairing.node).collect();
-        let shape = &self.model.nodes;
-        let mut at_rest = self.surfaces.inside(self.model, shape, [&facing, &HashSet::new()]);
+        let facing = self.initial.iter().flatten().map(|pairing| (pairing.node, false)).collect();
+        let mut at_rest = self.surfaces.inside(self.model, &self.model.nodes, &facing);
         let within = WRITTEN * farthest(self.model);
         at_rest.retain(|inside| inside.watched == Watched::Not && inside.depth <= within);
         at_rest.first().map_or(0.0, |inside| inside.depth)
