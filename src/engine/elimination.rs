@@ -11,7 +11,6 @@
 //! node one free motion along the tangent, and displaces it by s = −g·n. Where restraints do not let
 //! the contact node follow, the equation of a target node is eliminated in its place.
 
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
@@ -23,7 +22,7 @@ use paper::door::NodeToSegment;
 use problem::model::{Dof, Hold, Holds, NodeId};
 
 /// The constraint that binds the displacements of a contact node to the target.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Constraint<T = f64> {
     /// The contact node of the constraint.
     pub node: NodeId,
@@ -34,7 +33,7 @@ pub struct Constraint<T = f64> {
 }
 
 /// The motions of a contact node that a constraint binds, in lengths.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion<T = f64> {
     /// Both components are bound: u_c = Σ w u_t + shift, which is eq. (1) where the shift is 0.
     Both([T; 2]),

@@ -46,10 +46,10 @@ pub(super) struct Equations<'a, T> {
     supports: Vec<bool>,
     /// The whole load by degree of freedom, force.
     load: DVector<T>,
-    /// The load of one iteration by degree of freedom, 0 at restrained ones, force.
+    /// The load of one iteration by degree of freedom, force.
+    own: DVector<T>,
+    /// The same, 0 at restrained ones.
     f: DVector<T>,
-    /// The whole load over the load of one iteration.
-    share: T,
 }
 
 /// The result of an iteration's own load.
@@ -98,7 +98,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             Schedule::Stepped => T::from_number(request.iterations),
         };
         let (load, restrained) = (model.load_in(number), restrained(model, request));
-        let f = restrained.free_part(&load.map(|f| f / share));
+        let own = load.map(|f| f / share);
+        let f = restrained.free_part(&own);
         let assembly = match (request.variant, request.solver()) {
             (Variant::Printed, _) => Assembly::Printed,
             (_, Solver::SparseCholesky) => Assembly::Sparse,
@@ -120,8 +121,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             supports: supports(&restrained),
             restrained,
             load,
+            own,
             f,
-            share,
         })
     }
 
@@ -196,9 +197,8 @@ impl<'a, T: Precision> Equations<'a, T> {
         let mut wanted = self.supports.clone();
         let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
         bound.for_each(|dof| wanted[dof.index()] = true);
-        let load = self.load.map(|f| f / self.share);
-        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
-        let (support, passed) = support(&self.restrained, constraints, &force, &load);
+        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &self.own;
+        let (support, passed) = support(&self.restrained, constraints, &force, &self.own);
         Increment { residual, support, passed, u }
     }
 

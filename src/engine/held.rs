@@ -5,9 +5,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::elimination::{Constraint, Elimination};
-use super::reduction::{ReducedLoad, Reduction};
+use super::reduction::Reduction;
 use super::stiffness::Stiffness;
-use crate::linear::{DenseCholesky, Factors, SparseCholesky, backward_error};
+use crate::linear::{DenseCholesky, EliminatedLoad, Factors, SparseCholesky, backward_error};
 use problem::model::{Dof, Model};
 
 /// The relative residual at which corrections end.
@@ -45,7 +45,7 @@ enum Equations<'a> {
     /// All by their own.
     All,
     /// Those of the kept nodes by their own.
-    Kept(&'a Reduction, &'a ReducedLoad),
+    Kept(&'a Reduction, &'a EliminatedLoad),
     /// All by those of the kept nodes.
     AllByKept(&'a Reduction),
 }
@@ -78,7 +78,7 @@ impl<'a> Held<'a> {
     /// bind a node that is not kept.
     pub fn reduced(
         bodies: Loaded<'a>,
-        (reduction, load): (&'a Reduction, &'a ReducedLoad),
+        (reduction, load): (&'a Reduction, &'a EliminatedLoad),
         constraints: &[Constraint],
     ) -> Option<Self> {
         let t = reduction.closing(constraints)?;
@@ -109,7 +109,7 @@ impl<'a> Held<'a> {
                 Some(self.corrected(t.shift().clone(), *load + more, times, left, own))
             }
             Equations::Kept(by, load) => {
-                let f = &load.kept + by.part(more);
+                let f = by.left(load) + by.part(more);
                 let times = |u: &DVector<f64>| &by.stiffness * u;
                 let (kept, error) = self.corrected(t.shift().clone(), f, times, left, own);
                 (error <= ENOUGH).then(|| (by.expand(load, &kept), error))
@@ -125,7 +125,7 @@ impl<'a> Held<'a> {
                 };
                 let correction = |rest: &DVector<f64>| {
                     let rest = by.eliminated(rest);
-                    by.expand(&rest, &own(&rest.kept))
+                    by.expand(&rest, &own(&by.left(&rest)))
                 };
                 let found = self.corrected(by.spread(t.shift()), f, times, left, correction);
                 (found.1 <= ENOUGH).then_some(found)
@@ -161,7 +161,7 @@ impl<'a> Held<'a> {
             Equations::All | Equations::AllByKept(_) => {
                 self.bodies.stiffness.times(u) - self.bodies.load
             }
-            Equations::Kept(by, load) => by.spread(&(&by.stiffness * by.part(u) - &load.kept)),
+            Equations::Kept(by, load) => by.spread(&(&by.stiffness * by.part(u) - by.left(load))),
         }
     }
 
@@ -186,24 +186,21 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Returns the displacements by degree of freedom, length, and K u, force, where the same nodes are bound to
-    /// other places and nothing else acts; of reduced equations on the contact surfaces alone.
-    pub fn moved(&self, constraints: &[Constraint]) -> Option<[DVector<f64>; 2]> {
-        let Held { bodies: Loaded { model, stiffness, .. }, t, factors, .. } = self;
-        let carried =
-            |to: &DVector<f64>, force: DVector<f64>| to - t.motion(&factors.solve(&t.load(&force)));
-        match &self.equations {
+    /// Returns the displacements by degree of freedom, length, where the same nodes are bound to other places
+    /// and nothing else moves, and the load that undoes them, −K u, force; of reduced equations on the contact
+    /// surfaces alone.
+    pub fn shift(&self, constraints: &[Constraint]) -> Option<[DVector<f64>; 2]> {
+        let Loaded { model, stiffness, .. } = self.bodies;
+        Some(match &self.equations {
             Equations::All => {
-                let to = Elimination::closing(&model.holds, 0.0, constraints);
-                let u = carried(to.shift(), stiffness.times(to.shift()));
-                let force = stiffness.times(&u);
-                Some([u, force])
+                let to = Elimination::closing(&model.holds, 0.0, constraints).shift().clone();
+                let load = -stiffness.times(&to);
+                [to, load]
             }
             Equations::Kept(by, _) | Equations::AllByKept(by) => {
                 let to = by.closing(constraints)?;
-                let u = carried(to.shift(), &by.stiffness * to.shift());
-                Some([by.spread(&u), by.spread(&(&by.stiffness * &u))])
+                [by.spread(to.shift()), by.spread(&-(&by.stiffness * to.shift()))]
             }
-        }
+        })
     }
 }

@@ -38,8 +38,8 @@ pub use range::{beyond_range, locking, locking_of};
 pub use reactions::share_of_load;
 pub use request::Request;
 pub use solution::{
-    Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
-    Path, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load, max_displacement,
+    Cycle, Detail, Equilibrium, Margin, NearestDecision, OtherEquilibrium, Overlap, Path, Solution,
+    Start, Step, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
 pub use stiffness::Stiffness;

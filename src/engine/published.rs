@@ -16,7 +16,7 @@ use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
 use super::reactions::transmitted_force;
 use super::request::Request;
-use super::solution::{Cycle, Detail, FoundPairs, Solution, Step, max_displacement};
+use super::solution::{Cycle, Detail, Solution, Step, max_displacement};
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
 use base::limits;
@@ -160,8 +160,8 @@ struct Run<'a, T> {
 
 /// A contact state, which is all of k_cnt and the weights of the constraints, and its solution.
 struct Visited<T> {
-    /// The entries of k_cnt that are not 0, each with its place.
-    k_cnt: Vec<(usize, T)>,
+    /// The rows of k_cnt in which something is written.
+    k_cnt: Vec<(usize, [T; 4])>,
     constraints: Vec<Constraint<T>>,
     /// The last iteration that visited it.
     k: usize,
@@ -180,8 +180,7 @@ struct FoundState<T> {
 impl<T: Precision> Run<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search()?;
-        let entries = found.pairs.k_cnt.as_matrix().iter().copied().enumerate();
-        let k_cnt: Vec<(usize, T)> = entries.filter(|(_, entry)| !entry.is_zero()).collect();
+        let k_cnt: Vec<(usize, [T; 4])> = found.pairs.written().collect();
         let is_found = |visited: &Visited<T>| {
             visited.k_cnt == k_cnt && visited.constraints == found.constraints
         };
@@ -282,7 +281,7 @@ impl<T: Precision> Run<'_, T> {
             solve_residual: solved.residual,
             contact_residual: eq1_residual(measured, &self.reached.u),
             contact_residual_step: eq1_residual(measured, &solved.u),
-            detail: Detail::Published(FoundPairs::new(pairs)),
+            detail: Detail::Published(pairs.map(T::to_f64)),
         }
     }
 

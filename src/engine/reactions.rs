@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::contact::ROUNDING_OF_A_FORCE;
-use super::elimination::{Constraint, Motion, sum};
+use super::elimination::{Constraint, sum};
 use numbers::scalar::Scalar;
 use problem::model::{Dof, Hold, Model, NodeId};
 
@@ -54,7 +54,7 @@ pub fn support<T: Scalar>(
     let mut passed = DVector::from_element(model.dofs(), T::zero());
     let receivers = receivers(model);
     for constraint in constraints {
-        let own = constraint_force(model, constraint, force);
+        let own = unheld(model, constraint.node, force);
         for direction in [0, 1] {
             let masters = constraint.masters.iter().map(|(node, w)| (node.dofs()[direction], *w));
             let restrained = masters.filter(|(dof, _)| model.is_restrained(*dof));
@@ -116,21 +116,10 @@ pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
     says.then_some(share)
 }
 
-/// Returns the contact force on a constrained node, force.
-fn constraint_force<T: Scalar>(
-    model: &Model,
-    constraint: &Constraint<T>,
-    force: &DVector<T>,
-) -> [T; 2] {
-    let held = model.restraints_of(constraint.node);
-    let force = constraint.node.components(force);
-    match constraint.motion {
-        Motion::Both(_) => [0, 1].map(|d| if held[d] { T::zero() } else { force[d] }),
-        Motion::Along(normal, _) => {
-            let along = normal[0] * force[0] + normal[1] * force[1];
-            normal.map(|n| n * along)
-        }
-    }
+/// Returns the part of a force on a node that nothing holds, by degree of freedom, force.
+pub fn unheld<T: Scalar>(model: &Model, node: NodeId, force: &DVector<T>) -> [T; 2] {
+    let (held, force) = (model.restraints_of(node), node.components(force));
+    [0, 1].map(|d| if held[d] { T::zero() } else { force[d] })
 }
 
 /// Returns the sum of `force` over the restraints of the receivers, and of `load` over all of them, force.

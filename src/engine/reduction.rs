@@ -41,13 +41,6 @@ pub struct Reduction {
     dofs: usize,
 }
 
-/// A load from which all but the kept equations are eliminated.
-pub struct ReducedLoad {
-    all: EliminatedLoad,
-    /// What is left of it, by the degrees of freedom of the kept nodes, force.
-    pub(super) kept: DVector<f64>,
-}
-
 impl Reduction {
     /// Reduces the stiffness of a model to the nodes of its surfaces, or those about the least gaps of
     /// `pairings`; None where these do not hold what is left, without contact, and where a restraint follows
@@ -83,17 +76,20 @@ impl Reduction {
     }
 
     /// Eliminates all but the kept equations from a load by degree of freedom, force.
-    pub fn eliminated(&self, load: &DVector<f64>) -> ReducedLoad {
+    pub fn eliminated(&self, load: &DVector<f64>) -> EliminatedLoad {
         let of_free = self.free.iter().map(|dof| load[dof.index()]);
-        let all = self.schur.eliminate(&DVector::from_iterator(self.free.len(), of_free));
-        let kept = self.of_kept(all.last.iter().copied());
-        ReducedLoad { all, kept }
+        self.schur.eliminate(&DVector::from_iterator(self.free.len(), of_free))
+    }
+
+    /// Returns what is left of a load on the kept nodes, force.
+    pub(super) fn left(&self, load: &EliminatedLoad) -> DVector<f64> {
+        self.of_kept(load.last.iter().copied())
     }
 
     /// Returns the displacements by degree of freedom under a load, length, from those of the kept nodes.
-    pub(super) fn expand(&self, load: &ReducedLoad, kept: &DVector<f64>) -> DVector<f64> {
+    pub(super) fn expand(&self, load: &EliminatedLoad, kept: &DVector<f64>) -> DVector<f64> {
         let last = self.kept.iter().map(|(_, place)| kept[*place]);
-        let all = self.schur.expand(&load.all, &DVector::from_iterator(self.kept.len(), last));
+        let all = self.schur.expand(load, &DVector::from_iterator(self.kept.len(), last));
         let mut u = DVector::zeros(self.dofs);
         self.free.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
         u

@@ -1,6 +1,5 @@
 //! A request: the scene, the contact model, the variant, the reading, and the numbers.
 
-use serde::Serialize;
 use std::sync::Arc;
 
 use super::contact;
@@ -15,7 +14,7 @@ use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule,
 use problem::scene::Scene;
 
 /// A request. [`Request::new`] asks for what the scene says; every field may be changed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Request {
     /// The scene to be solved.
     pub scene: Scene,

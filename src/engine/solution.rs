@@ -13,7 +13,6 @@ use super::range::inside_out;
 use super::request::Request;
 use base::choices;
 use base::exit::ExitStatus;
-use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
 use problem::element::State;
@@ -23,7 +22,7 @@ use problem::model::{Dof, Model, NodeId};
 pub(super) const APART: f64 = 1e-6;
 
 /// A step: one iteration of a published variant, or one of the active set.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The number of the step, from 1.
     pub k: usize,
@@ -57,62 +56,17 @@ pub struct Step {
 }
 
 /// The results of a step that depend on the kind of variant.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Detail {
     /// An iteration of a variant that the paper describes: the pairs that `c_cnt` found in the shape at the
     /// start.
-    Published(FoundPairs),
+    Published(Pairs<f64>),
     /// An iteration of the active set under `unilateral`.
     Unilateral(Unilateral),
 }
 
-/// The pairs of an iteration in the arrays of `c_cnt`, but of `k_cnt`, which has a row for each node of
-/// the mesh, only the rows in which something is written.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FoundPairs {
-    /// The `elem` number of each contact node's target edge; 0 for none.
-    pub ct: Column<usize>,
-    /// The vertical distance from contact node to target line, > 0 with the line above, length.
-    pub yt: Column<f64>,
-    /// The status of each contact node: 1 in contact, 0 not.
-    pub dy: Column<usize>,
-    /// The number of each node with master nodes, ascending, with its row: master, weight, master, weight.
-    pub masters: Vec<(usize, [f64; 4])>,
-    nodes: usize,
-}
-
-impl FoundPairs {
-    /// Keeps what was found.
-    pub fn new<T: Scalar>(pairs: &Pairs<T>) -> Self {
-        let row = |node: usize| (node, [1, 2, 3, 4].map(|j| pairs.k_cnt[(node, j)].to_f64()));
-        let is_written = |(_, row): &(usize, [f64; 4])| row.iter().any(|x| *x != 0.0);
-        let nodes = pairs.k_cnt.rows();
-        FoundPairs {
-            ct: pairs.ct.clone(),
-            yt: pairs.yt.map(T::to_f64),
-            dy: pairs.dy.clone(),
-            masters: (1..=nodes).map(row).filter(is_written).collect(),
-            nodes,
-        }
-    }
-
-    /// Returns `k_cnt`, R x 4.
-    pub fn k_cnt(&self) -> Table<f64> {
-        let mut table = Table::filled(self.nodes, 4, 0.0);
-        for (node, row) in &self.masters {
-            (1..).zip(row).for_each(|(j, x)| table[(*node, j)] = *x);
-        }
-        table
-    }
-
-    /// Returns all arrays of `c_cnt`.
-    pub fn whole(&self) -> Pairs<f64> {
-        Pairs { ct: self.ct.clone(), yt: self.yt.clone(), dy: self.dy.clone(), k_cnt: self.k_cnt() }
-    }
-}
-
 /// An iteration of the active set.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Unilateral {
     /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
     /// second.
@@ -308,7 +262,7 @@ pub struct Cycle {
 }
 
 /// The solution of a request.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// The request that was solved.
     pub request: Request,
@@ -335,12 +289,10 @@ pub struct Solution {
     pub equilibrium: Option<Equilibrium>,
 }
 
-/// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups,
-/// or beyond the end of the other one. What was found is then an equilibrium of bodies that pass through each
-/// other there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Nodes of outlines that lie inside another body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Overlap {
-    /// How many they are: those deeper than rounding and than the height of the arcs over the edges there.
+    /// How many they are.
     pub nodes: usize,
     /// The deepest.
     pub node: NodeId,
@@ -351,7 +303,9 @@ pub struct Overlap {
 }
 
 impl Overlap {
-    /// Returns what there is among nodes inside a body, the deepest first.
+    /// Returns what there is among nodes inside a body, the deepest first, that contact does not watch, as they
+    /// are in none of its groups or beyond the end of the other one. What was found is then an equilibrium of
+    /// bodies that pass through each other there.
     pub(super) fn of(inside: &[InsideNode]) -> Option<Self> {
         let unwatched: Vec<_> =
             inside.iter().filter(|inside| inside.watched == Watched::Not).collect();

@@ -1,7 +1,5 @@
 //! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
-use std::ops::Range;
-
 use nalgebra::{DVector, SMatrix, SVector};
 
 use super::elimination::Elimination;
@@ -19,7 +17,7 @@ pub struct Stiffness<T = f64> {
     triangles: Vec<Element<T>>,
     /// The stiffness of the springs on which each node of a triangle stands, over the mean diagonal entry
     /// of its matrix.
-    springs: T,
+    pub(super) springs: T,
 }
 
 /// A material in the numbers of a run.
@@ -127,21 +125,6 @@ impl<T: Scalar> Stiffness<T> {
         })
     }
 
-    /// Returns the number of triangles.
-    pub fn triangles(&self) -> usize {
-        self.triangles.len()
-    }
-
-    /// Visits some triangles: the degrees of freedom of the corners, x, y of each in turn, and the
-    /// matrix, force/length.
-    pub fn visit(
-        &self,
-        triangles: Range<usize>,
-        mut visit: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>),
-    ) {
-        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrix(&self.triangles[i])));
-    }
-
     /// Returns the stresses and strains of every triangle under displacements `u`.
     pub fn states(&self, u: &DVector<T>) -> Vec<State> {
         let states = self.triangles.iter().map(|t| {
@@ -149,13 +132,6 @@ impl<T: Scalar> Stiffness<T> {
             State::new(self.plane, e, nu, &t.strain(), &t.displacements(u))
         });
         states.collect()
-    }
-
-    /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
-    pub fn stresses(&self, u: &DVector<T>) -> Vec<SVector<T, 3>> {
-        let d = |t: &Element<T>| self.materials[t.material as usize].d;
-        let stress = |t: &Element<T>| d(t) * (t.strain() * t.displacements(u));
-        self.triangles.iter().map(stress).collect()
     }
 }
 

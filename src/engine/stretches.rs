@@ -106,8 +106,8 @@ fn bodies(solution: &Solution) -> HashMap<NodeId, [usize; 2]> {
             own.pairings.iter().flatten().map(|p| [p.node, p.masters[0].0]).collect()
         }
         Detail::Published(own) => {
-            let rows = own.masters.iter().filter(|(_, row)| row[0] >= 1.0);
-            rows.map(|(node, row)| [*node, row[0] as usize].map(NodeId::from_number)).collect()
+            let rows = own.written().filter(|(_, row)| row[0] >= 1.0);
+            rows.map(|(node, row)| [node, row[0] as usize].map(NodeId::from_number)).collect()
         }
     };
     let body_of = |node| solution.model.bodies.iter().position(|body| body.has(node));

@@ -49,11 +49,6 @@ impl<T: nalgebra::Scalar> Table<T> {
         (0..self.cols()).map(move |j| &self.0[(i - 1, j)])
     }
 
-    /// Returns the entry at `[i, j]`, from 1, or nothing outside the table.
-    pub fn get(&self, i: usize, j: usize) -> Option<&T> {
-        self.0.get((i.checked_sub(1)?, j.checked_sub(1)?))
-    }
-
     /// Returns the table of what `f` makes of each entry.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Table<U> {
         Table(self.0.map(f))

@@ -60,12 +60,6 @@ impl<T: Scalar> SparseSquare<T> {
         DVector::from_fn(self.size(), |i, _| self[(i, i)])
     }
 
-    /// Returns the matrix with `f` of each entry.
-    pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> SparseSquare<U> {
-        let column = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(*a))).collect();
-        SparseSquare { columns: self.columns.iter().map(column).collect(), zero: U::zero() }
-    }
-
     /// Returns the same matrix with all its zeros.
     pub fn dense(&self) -> DMatrix<T> {
         DMatrix::from_fn(self.size(), self.size(), |i, j| self[(i, j)])

@@ -328,6 +328,6 @@ impl Call {
 
     /// Returns the row of `k_cnt` of a node: mate, weight, mate, weight.
     pub fn row(&self, node: NodeId) -> [f64; 4] {
-        std::array::from_fn(|j| self.pairs.k_cnt[(node.number(), j + 1)])
+        self.pairs.row(node.number())
     }
 }

@@ -347,7 +347,7 @@ fn each_finding_without_a_repair_has_a_reason_that_holds() {
     };
     let current = solved("C6", &|request| request.reading("R5=node_n".parse().unwrap()));
     let found = current.steps.iter().filter_map(|step| match &step.detail {
-        Detail::Published(found) => Some(linked(&worksheet(&current.model, |x| x), &found.whole())),
+        Detail::Published(found) => Some(linked(&worksheet(&current.model, |x| x), found)),
         Detail::Unilateral(_) => None,
     });
     let weights: Vec<f64> =

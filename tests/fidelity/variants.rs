@@ -7,9 +7,9 @@ use crate::common::rows::scene_of;
 use crate::common::tolerances::{BALANCE, assert_near};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Solver};
-use plane_contact::engine::{self, Detail, FoundPairs, Request, Solution, Step};
+use plane_contact::engine::{self, Detail, Request, Solution, Step};
 use plane_contact::paper::door::Call;
-use plane_contact::paper::mirror::Reading;
+use plane_contact::paper::mirror::{Pairs, Reading};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -33,7 +33,7 @@ fn solved(scene: &Scene, variant: Variant) -> Solution {
 }
 
 /// The pairs of an iteration of a variant of the paper.
-fn published(step: &Step) -> &FoundPairs {
+fn published(step: &Step) -> &Pairs<f64> {
     match &step.detail {
         Detail::Published(pairs) => pairs,
         Detail::Unilateral(_) => panic!("unilateral is no variant of the paper"),

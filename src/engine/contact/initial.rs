@@ -7,6 +7,7 @@ use super::overlap::PlacedTriangles;
 use super::pairing::Vector;
 use super::search::{distance_square, dot};
 use super::surface::{SAME, Surfaces};
+use crate::solution::Overlap;
 use base::error::InputError;
 use problem::model::{Body, Bounds, Model, NodeId};
 
@@ -22,17 +23,7 @@ const FAR: f64 = 0.1;
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum InitialGaps {
     /// Contact nodes lie inside the target: an interference fit, or a mistake of the drawing.
-    Overlap {
-        /// The number of these nodes.
-        nodes: usize,
-        /// The deepest.
-        node: NodeId,
-        /// Its depth, length.
-        depth: f64,
-        /// The height of the arcs over the edges there, by which curved surfaces that fit enter each other,
-        /// length.
-        facet_height: f64,
-    },
+    Overlap(Overlap),
     /// All contact nodes are farther from the target than a tenth of the smaller body's size.
     Apart {
         /// The nearest.
@@ -50,13 +41,9 @@ impl Surfaces {
         if let Some((node, point)) = inside.first() {
             let nodes: Vec<NodeId> =
                 point.masters.iter().map(|(master, _)| *master).chain([*node]).collect();
-            let facet_height = self.facet_height(&nodes, &model.nodes, 0.0);
-            return Some(InitialGaps::Overlap {
-                nodes: inside.len(),
-                node: *node,
-                depth: -point.gap,
-                facet_height,
-            });
+            let facet_height = self.facet_height(&nodes, 0.0);
+            let (nodes, depth) = (inside.len(), -point.gap);
+            return Some(InitialGaps::Overlap(Overlap { nodes, node: *node, depth, facet_height }));
         }
         let (node, nearest) = faced.iter().min_by(|a, b| a.1.gap.total_cmp(&b.1.gap))?;
         let size = |body: &Body| {

@@ -38,7 +38,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Pairing, unit};
 use super::search::dot;
-use super::surface::{Edge, FACING, PlacedEdge, SAME, Surface, Surfaces};
+use super::surface::{FACING, PlacedEdge, SAME, Surface, Surfaces};
 use numbers::scalar::Scalar;
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
@@ -62,20 +62,17 @@ impl Surfaces {
     /// Returns, for each contact surface entry, the average of the target that its edges cover in a shape,
     /// given as the coordinates of each node, length.
     pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<Option<Pairing<T>>> {
-        let target: Vec<PlacedEdge<T>> =
-            self.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
+        let [contact, target] = [&self.contact, &self.target].map(|own| own.in_shape(shape));
         let mut gathered: FxHashMap<NodeId, NodeIntegrals<T>> = FxHashMap::default();
         let at = |n: NodeId| shape[n.index()].map(T::to_f64);
-        let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
+        let tree = Tree::new(self.target.edges.iter().map(|edge| edge.map(at)).enumerate());
         let search = Search { surfaces: self, target: &target, tree };
-        let cover = |(edge, at_rest): (&Edge, &PlacedEdge)| {
-            search.cover(&edge.in_shape(shape), at_rest.at(0.5))
-        };
+        let edges = contact.iter().zip(&self.contact.undeformed);
         let covered: Vec<Vec<Stretch<T>>> =
-            self.contact.edges.iter().zip(&self.contact.undeformed).map(cover).collect();
+            edges.map(|(edge, at_rest)| search.cover(edge, at_rest.at(0.5))).collect();
         for (i, edge) in self.contact.edges.iter().enumerate() {
             let Some(integrals) = Integrals::over(&covered[i]) else { continue };
-            for (k, node) in edge.nodes.into_iter().enumerate() {
+            for (k, node) in edge.iter().copied().enumerate() {
                 let mut others = self.contact.at[&node].iter().filter(|other| **other != i);
                 if others.any(|other| search.is_cut_off([&covered[i], &covered[*other]], k)) {
                     continue;
@@ -227,7 +224,7 @@ impl<T: Scalar> Search<'_, T> {
     /// Returns whether a target edge is another one or shares a node with it.
     fn goes_on(&self, edge: usize, other: usize) -> bool {
         let edges = &self.surfaces.target.edges;
-        edges[edge].nodes.iter().any(|n| edges[other].nodes.contains(n))
+        edges[edge].iter().any(|n| edges[other].contains(n))
     }
 
     /// Returns whether a place on the target lies behind a jump of it: behind the line of the edge that was
@@ -339,14 +336,14 @@ impl<T: Scalar> NodeIntegrals<T> {
     ) {
         self.length += integrals.phi[k];
         for stretch in covered {
-            let edge: &Edge = &search.surfaces.target.edges[stretch.edge];
+            let nodes = search.surfaces.target.edges[stretch.edge];
             let normal = search.target[stretch.edge].normal;
-            let id = edge.id.expect("a target edge is one of the model's");
-            *self.edges.entry(id).or_insert(0.0) += (stretch.to - stretch.from).to_f64();
+            *self.edges.entry(search.surfaces.target_edges[stretch.edge]).or_insert(0.0) +=
+                (stretch.to - stretch.from).to_f64();
             for (xi, weight) in gauss(stretch) {
                 let psi = weight * dot(integrals.dual[k], phi(xi));
                 let eta = (xi - stretch.ends[0]) / (stretch.ends[1] - stretch.ends[0]);
-                for (master, n) in edge.nodes.into_iter().zip(phi(eta)) {
+                for (master, n) in nodes.into_iter().zip(phi(eta)) {
                     *self.masters.entry(master).or_insert(T::zero()) += psi * n;
                 }
                 for d in [0, 1] {

@@ -15,7 +15,7 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
     let pairing = |(&node, length): (&NodeId, f64)| {
         let faced = outline.faced((node, &surfaces.contact), [shape, &surfaces.at_rest])?;
         let FacedPoint { edge, masters, normal, gap, corner, .. } = faced;
-        let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
+        let edge = surfaces.target_edges[edge];
         let pairing = Pairing { node, edge, masters, normal, gap, length, corner };
         listed.insert(node).then_some(pairing)
     };

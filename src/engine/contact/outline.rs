@@ -84,10 +84,9 @@ enum Part {
 impl<'a> Outline<'a> {
     /// Places the edges of a surface in `shape`.
     pub(super) fn new(surface: &'a Surface, shape: &[Vector]) -> Self {
-        let Surface { edges, once, .. } = surface;
-        let placed: Vec<PlacedEdge> = edges.iter().map(|edge| edge.in_shape(shape)).collect();
-        let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
-        let tree = Tree::new(once.iter().map(ends));
+        let placed = surface.in_shape(shape);
+        let ends = surface.edges.iter().map(|edge| edge.map(|n| shape[n.index()]));
+        let tree = Tree::new(ends.enumerate());
         let tie = SAME * tree.bounds().map_or(0.0, |all| all.larger_side());
         let normals = normals(surface, &placed);
         Outline { surface, placed, normals, tree, tie }
@@ -124,7 +123,7 @@ impl<'a> Outline<'a> {
     fn vertex(&self, v: NodeId) -> Vector {
         let k = self.surface.at[&v][0];
         let PlacedEdge { start, tangent, length, .. } = &self.placed[k];
-        let end = self.surface.edges[k].nodes[1] == v;
+        let end = self.surface.edges[k][1] == v;
         let far = if end { *length } else { 0.0 };
         [0, 1].map(|d| start[d] + far * tangent[d])
     }
@@ -132,7 +131,7 @@ impl<'a> Outline<'a> {
     /// Returns how far `p` projects past end `v` of edge `k`, over its length; < 0 on its side.
     fn past(&self, k: usize, v: NodeId, p: Vector) -> f64 {
         let xi = self.placed[k].along(p);
-        if self.surface.edges[k].nodes[1] == v { xi - 1.0 } else { -xi }
+        if self.surface.edges[k][1] == v { xi - 1.0 } else { -xi }
     }
 
     /// Returns the sum of the normals of the edges at a vertex, which points out of the body.
@@ -171,9 +170,9 @@ impl FacingNode<'_> {
     /// Returns the part of edge `k` or of its ends that is nearest to the node, and its distance.
     fn part(&self, k: usize) -> Option<(f64, Part)> {
         let (outline, p) = (self.outline, self.p);
-        let edge = &outline.surface.edges[k];
+        let edge = outline.surface.edges[k];
         let xi = outline.placed[k].along(p);
-        let v = edge.nodes[usize::from(xi > 0.5)];
+        let v = edge[usize::from(xi > 0.5)];
         if outline.past(k, v, p) > 0.0 {
             return self.at_vertex(v).map(|part| (self.distance(v), part));
         }
@@ -181,7 +180,7 @@ impl FacingNode<'_> {
             return Some((outline.placed[k].outside(p).abs(), Part::Edge(k)));
         }
         // From the middle of an edge both of its ends are as near.
-        let ends = edge.nodes.into_iter().filter(|end| *end == v || xi == 0.5);
+        let ends = edge.into_iter().filter(|end| *end == v || xi == 0.5);
         let tip = ends.filter(|end| self.in_tip(*end)).min()?;
         Some((self.distance(tip), Part::Tip(tip)))
     }
@@ -246,7 +245,7 @@ impl FacingNode<'_> {
         // A vertex before an edge, then the one with the least node numbers.
         let first = parts.iter().min_by_key(|part| match part {
             Part::Vertex(v) | Part::Tip(v) => (false, [*v; 2]),
-            Part::Edge(k) => (true, self.outline.surface.edges[*k].nodes),
+            Part::Edge(k) => (true, self.outline.surface.edges[*k]),
         });
         match *first.expect("there is one") {
             Part::Tip(v) => self.on_vertex(v, unit(self.outline.pseudo_normal(v))),
@@ -263,7 +262,7 @@ impl FacingNode<'_> {
         let mut vertices: Vec<NodeId> = Vec::new();
         for part in parts {
             match part {
-                Part::Edge(k) => vertices.extend(outline.surface.edges[*k].nodes),
+                Part::Edge(k) => vertices.extend(outline.surface.edges[*k]),
                 Part::Vertex(v) | Part::Tip(v) => vertices.push(*v),
             }
         }
@@ -285,7 +284,7 @@ impl FacingNode<'_> {
         let edges = outline.surface.at[&v].iter().copied();
         let best = edges.reduce(|a, b| {
             let further = away(b) - away(a);
-            let first = outline.surface.edges[b].nodes < outline.surface.edges[a].nodes;
+            let first = outline.surface.edges[b] < outline.surface.edges[a];
             if further > outline.tie || further >= -outline.tie && first { b } else { a }
         });
         best.expect("a vertex has an edge")
@@ -305,7 +304,7 @@ impl FacingNode<'_> {
         let outline = self.outline;
         let [k, l] = outline.surface.at[&v][..] else { return 0.0 };
         let [n, m] = [k, l].map(|edge| outline.placed[edge].normal);
-        let ends = outline.surface.edges[l].nodes;
+        let ends = outline.surface.edges[l];
         let far = outline.vertex(if ends[0] == v { ends[1] } else { ends[0] });
         let is_concave = outline.placed[k].outside(far) > outline.tie && !outline.bends(v);
         let faced = [k, l].into_iter().all(|edge| self.faces_edge(edge));
@@ -315,13 +314,13 @@ impl FacingNode<'_> {
     }
 
     fn on_edge(&self, k: usize) -> FacedPoint {
-        let (edge, placed) = (&self.outline.surface.edges[k], &self.outline.placed[k]);
+        let ([first, second], placed) = (self.outline.surface.edges[k], &self.outline.placed[k]);
         let along = placed.along(self.p);
         let xi = along.clamp(0.0, 1.0);
         let over = (along - xi).abs() <= SAME;
         let [a, b] = self.outline.normals[k];
         let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
-        let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
+        let masters = vec![(first, 1.0 - xi), (second, xi)];
         let gap = placed.outside(self.p) * dot(normal, placed.normal);
         FacedPoint { edge: k, masters, normal, gap, over, corner: 0.0 }
     }
@@ -337,5 +336,5 @@ fn normals(surface: &Surface, placed: &[PlacedEdge]) -> Vec<[Vector; 2]> {
             unit(bend.fold([0.0; 2], |sum, normal| [sum[0] + normal[0], sum[1] + normal[1]]));
         surface.mirrored(node, mean)
     };
-    surface.edges.iter().enumerate().map(|(k, edge)| edge.nodes.map(|node| mean(k, node))).collect()
+    surface.edges.iter().enumerate().map(|(k, edge)| edge.map(|node| mean(k, node))).collect()
 }

@@ -8,12 +8,12 @@
 //!      body's outline              enter each other
 //! ```
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::outline::Outline;
 use super::pairing::Vector;
 use super::search::{distance_square, is_in_triangle};
-use super::surface::{Edge, Surface, Surfaces};
+use super::surface::{Surface, Surfaces};
 use problem::model::{Body, Bounds, Model, NodeId};
 use problem::tree::Tree;
 
@@ -51,17 +51,16 @@ pub(super) struct PlacedTriangles {
 impl Surfaces {
     /// Returns the nodes of all outlines that lie inside another body in a shape, given as the coordinates of
     /// each node, length, the deepest first; where both surfaces are one body's, inside that body too.
-    /// `facing` are the contact nodes that face the target, `closed` those of them that are in contact;
-    /// without contact there are none.
+    /// `facing` are the contact nodes that face the target, with whether they are in contact; without contact
+    /// there are none.
     pub fn inside(
         &self,
         model: &Model,
         shape: &[Vector],
-        [facing, closed]: [&HashSet<NodeId>; 2],
+        facing: &HashMap<NodeId, bool>,
     ) -> Vec<InsideNode> {
         let target = model.target();
-        let sides = model.sides.outline().map(|side| Edge { id: None, nodes: side.nodes });
-        let whole = Surface::new(model, sides.collect());
+        let whole = Surface::new(model, model.sides.outline().map(|side| side.nodes).collect());
         let [contact_outline, target_outline] =
             [&self.contact, &self.target].map(|surface| Outline::new(surface, shape));
         let is_self = target.is_some_and(|target| self.nodes.iter().all(|node| target.has(*node)));
@@ -75,18 +74,17 @@ impl Surfaces {
             let nodes: Vec<NodeId> = whole.at.keys().filter(may_enter).copied().collect();
             let placed = PlacedTriangles::new(model, body, &nodes, shape);
             for node in nodes.into_iter().filter(|node| placed.contain(*node, shape)) {
-                let Some((depth, edge)) = whole.nearest(body, node, shape) else { continue };
-                let [a, b] = edge.nodes;
-                let height = [node, a, b].map(|at| whole.height_near(at, &model.nodes));
+                let Some((depth, [a, b])) = whole.nearest(body, node, shape) else { continue };
+                let height = [node, a, b].map(|at| whole.height_near(at));
                 let height = height.into_iter().fold(0.0, f64::max);
                 // Whether the node lies over an edge of the other group, not past its end.
                 let over = |own: &Surface, other: &Outline| {
                     let faced = other.faced((node, own), [shape, &model.nodes]);
                     Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
-                let watched = if facing.contains(&node)
+                let watched = if let Some(is_closed) = facing.get(&node)
                     && over(&self.contact, &target_outline)
-                        .is_some_and(|is_over| is_over || closed.contains(&node))
+                        .is_some_and(|is_over| is_over || *is_closed)
                 {
                     Watched::Contact
                 } else if self.target.at.contains_key(&node)
@@ -107,21 +105,19 @@ impl Surfaces {
 impl Surface {
     /// Returns the largest height of the arcs over the edges that meet at a node, from either of their ends,
     /// length.
-    fn height_near(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        let ends = self.at[&node].iter().flat_map(|k| self.edges[*k].nodes);
-        ends.map(|end| self.height_at(end, shape)).fold(0.0, f64::max)
+    fn height_near(&self, node: NodeId) -> f64 {
+        let ends = self.at[&node].iter().flat_map(|k| self.edges[*k]);
+        ends.map(|end| self.height_at(end)).fold(0.0, f64::max)
     }
 
     /// Returns the distance of a node from the nearest edge of a body's outline that does not end at it,
     /// length, and the edge.
-    fn nearest(&self, body: &Body, node: NodeId, shape: &[Vector]) -> Option<(f64, &Edge)> {
-        let edges =
-            self.edges.iter().filter(|edge| body.has(edge.nodes[0]) && !edge.nodes.contains(&node));
-        let square = |edge: &Edge| {
-            let ends = edge.nodes.map(|end| shape[end.index()]);
-            distance_square(ends, shape[node.index()])
+    fn nearest(&self, body: &Body, node: NodeId, shape: &[Vector]) -> Option<(f64, [NodeId; 2])> {
+        let edges = self.edges.iter().filter(|edge| body.has(edge[0]) && !edge.contains(&node));
+        let square = |edge: &[NodeId; 2]| {
+            distance_square(edge.map(|end| shape[end.index()]), shape[node.index()])
         };
-        let nearest = edges.map(|edge| (square(edge), edge)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest = edges.map(|edge| (square(edge), *edge)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map(|(square, edge)| (square.sqrt(), edge))
     }
 }

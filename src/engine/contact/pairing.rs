@@ -25,7 +25,7 @@ use problem::model::{EdgeId, Model, NodeId};
 pub const STEEP: f64 = 0.5;
 
 /// The part of the target that a contact node faces.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pairing<T = f64> {
     /// The contact node that faces it.
     pub node: NodeId,
@@ -41,7 +41,6 @@ pub struct Pairing<T = f64> {
     pub length: T,
     /// At a concave corner, on both of whose edges the node rests, the tangent of the angle from the normal
     /// to either edge's; 0 elsewhere.
-    #[serde(skip)]
     pub corner: f64,
 }
 

@@ -6,6 +6,7 @@ use nalgebra::DVector;
 use super::pairing::{Pairing, Status, Vector};
 use super::surface::{SAME, Surfaces};
 use crate::quantities::ContactNode;
+use crate::reactions::unheld;
 use problem::element::Plane;
 use problem::model::{Material, Model, NodeId};
 
@@ -133,8 +134,7 @@ pub fn reactions(
 ) -> Vec<Option<[f64; 2]>> {
     let of_pairing = |pairing: &Pairing| {
         let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
-        let force = pairing.node.components(reaction);
-        let [rx, ry] = [0, 1].map(|d| if restrained[d] { 0.0 } else { force[d] });
+        let [rx, ry] = unheld(model, pairing.node, reaction);
         let is_determined = match restrained {
             [false, false] => true,
             [true, true] => false,

@@ -30,14 +30,15 @@ pub struct Surfaces {
     pub(super) at_rest: Vec<Vector>,
     pub(super) contact: Surface,
     pub(super) target: Surface,
+    /// The model's edge for each edge of the target.
+    pub(super) target_edges: Vec<EdgeId>,
 }
 
-/// The edges of the contact surface, each once, or those of the target surface, in the order of the model.
+/// The edges of the contact surface or those of the target surface, each once, in the order of the model.
 pub(super) struct Surface {
-    pub(super) edges: Vec<Edge>,
-    /// The indices of the edges, of one that is listed twice the first.
-    pub(super) once: Vec<usize>,
-    /// Those at each node.
+    /// The two nodes of each edge, with the body on the left from the first to the second.
+    pub(super) edges: Vec<[NodeId; 2]>,
+    /// The edges at each node.
     pub(super) at: FxHashMap<NodeId, Vec<usize>>,
     /// The edges in the undeformed shape. An intermediate shape of the iterations may be folded, so that its
     /// normals do not decide which surfaces face each other.
@@ -51,41 +52,35 @@ pub(super) struct Surface {
     outline: Vec<[Vector; 2]>,
 }
 
-/// An edge of a body's surface.
-#[derive(Clone, Debug)]
-pub(super) struct Edge {
-    /// The target edge of the model; None for an edge of the contact surface.
-    pub(super) id: Option<EdgeId>,
-    /// Its two nodes, with the body on the left from the first to the second.
-    pub(super) nodes: [NodeId; 2],
-}
-
 impl Surface {
-    pub(super) fn new(model: &Model, edges: Vec<Edge>) -> Self {
-        let mut listed = HashSet::new();
-        let once: Vec<usize> =
-            (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
+    pub(super) fn new(model: &Model, edges: Vec<[NodeId; 2]>) -> Self {
         let mut at: FxHashMap<NodeId, Vec<usize>> = FxHashMap::default();
-        for &k in &once {
-            edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
+        for (k, edge) in edges.iter().enumerate() {
+            edge.iter().for_each(|n| at.entry(*n).or_default().push(k));
         }
         let mut sums: FxHashMap<NodeId, Vector> = FxHashMap::default();
-        let undeformed: Vec<_> = edges.iter().map(|edge| edge.in_shape(&model.nodes)).collect();
+        let undeformed: Vec<PlacedEdge> =
+            edges.iter().map(|edge| PlacedEdge::new(*edge, &model.nodes)).collect();
         for (edge, PlacedEdge { normal, length, .. }) in edges.iter().zip(&undeformed) {
-            for n in edge.nodes {
-                let sum = sums.entry(n).or_default();
+            for n in edge {
+                let sum = sums.entry(*n).or_default();
                 (0..2).for_each(|d| sum[d] += length * normal[d]);
             }
         }
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         let node_normals = means.collect();
         let across = across(model, &edges, &at);
-        let has_surface = |body: &&Body| edges.iter().any(|edge| body.has(edge.nodes[0]));
+        let has_surface = |body: &&Body| edges.iter().any(|edge| body.has(edge[0]));
         let bodies: Vec<&Body> = model.bodies.iter().filter(has_surface).collect();
         let sides = model.sides.outline().map(|side| side.nodes);
         let own = sides.filter(|nodes| bodies.iter().any(|body| body.has(nodes[0])));
         let outline = own.map(|nodes| nodes.map(|node| model.coordinates(node))).collect();
-        Surface { edges, once, at, undeformed, node_normals, across, outline }
+        Surface { edges, at, undeformed, node_normals, across, outline }
+    }
+
+    /// Places the edges in a shape, given as the coordinates of each node, length.
+    pub(super) fn in_shape<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<PlacedEdge<T>> {
+        self.edges.iter().map(|edge| PlacedEdge::new(*edge, shape)).collect()
     }
 
     /// Returns whether edge `k` is seen from behind, through its body, from a place in the undeformed shape:
@@ -116,25 +111,18 @@ impl Surface {
         if is_bend { unit(along) } else { normal }
     }
 
-    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the
-    /// surface ends.
-    fn meeting(&self, node: NodeId, shape: &[Vector]) -> Option<[PlacedEdge; 2]> {
-        let [k, l] = self.at.get(&node)?[..] else { return None };
-        let order = if self.edges[k].nodes[1] == node { [k, l] } else { [l, k] };
-        Some(order.map(|k| self.edges[k].in_shape(shape)))
-    }
-
-    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth
-    /// surface: an eighth of an edge's length times the angle between their normals, length; 0 where they
+    /// Returns the height of the arc of a circle over the undeformed edges that meet at a node in a bend of a
+    /// smooth surface: an eighth of an edge's length times the angle between their normals, length; 0 where they
     /// meet in no bend.
-    pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        self.bend_at(node, shape).map_or(0.0, |[_, height]| height)
+    pub(super) fn height_at(&self, node: NodeId) -> f64 {
+        self.bend_at(node).map_or(0.0, |[_, height]| height)
     }
 
-    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface,
-    /// rad, and [`Surface::height_at`] there; None where they meet in no bend.
-    fn bend_at(&self, node: NodeId, shape: &[Vector]) -> Option<[f64; 2]> {
-        let [a, b] = self.meeting(node, shape)?;
+    /// Returns the angle between the normals of the undeformed edges that meet at a node in a bend of a smooth
+    /// surface, rad, and [`Surface::height_at`] there; None where they meet in no bend.
+    fn bend_at(&self, node: NodeId) -> Option<[f64; 2]> {
+        let [k, l] = self.at.get(&node)?[..] else { return None };
+        let [a, b] = [k, l].map(|k| &self.undeformed[k]);
         let angle = dot(a.tangent, b.normal).abs().atan2(dot(a.normal, b.normal));
         (dot(a.normal, b.normal) > BEND).then_some([angle, angle * a.length.max(b.length) / 8.0])
     }
@@ -152,7 +140,7 @@ impl Surface {
 /// it along a line across that direction that is held so too.
 fn across(
     model: &Model,
-    edges: &[Edge],
+    edges: &[[NodeId; 2]],
     at: &FxHashMap<NodeId, Vec<usize>>,
 ) -> FxHashMap<NodeId, Vector> {
     let held = |node: NodeId| model.restraints_of(node);
@@ -164,7 +152,7 @@ fn across(
     // A surface that goes on along the line itself ends there all the same.
     let is_end = |node: &NodeId, side: [NodeId; 2]| {
         let own = at.get(node).into_iter().flatten();
-        own.filter(|k| unordered(edges[**k].nodes) != unordered(side)).count() == 1
+        own.filter(|k| unordered(edges[**k]) != unordered(side)).count() == 1
     };
     let mut found = FxHashMap::default();
     for side in model.sides.outline().map(|side| side.nodes) {
@@ -193,18 +181,16 @@ pub(super) struct PlacedEdge<T = f64> {
     pub(super) length: T,
 }
 
-impl Edge {
-    /// Places the edge in a shape, given as the coordinates of each node, length.
-    pub(super) fn in_shape<T: Scalar>(&self, shape: &[[T; 2]]) -> PlacedEdge<T> {
-        let [start, end] = self.nodes.map(|n| shape[n.index()]);
+impl<T: Scalar> PlacedEdge<T> {
+    /// Places the edge between two nodes in a shape, given as the coordinates of each node, length.
+    fn new(nodes: [NodeId; 2], shape: &[[T; 2]]) -> Self {
+        let [start, end] = nodes.map(|n| shape[n.index()]);
         let along = minus(end, start);
         let length = T::length(along[0], along[1]);
         let tangent = [along[0] / length, along[1] / length];
         PlacedEdge { start, tangent, normal: [tangent[1], -tangent[0]], length }
     }
-}
 
-impl<T: Scalar> PlacedEdge<T> {
     /// Returns the same edge in other numbers.
     pub(super) fn map<U>(&self, to: impl Fn(T) -> U) -> PlacedEdge<U> {
         let PlacedEdge { start, tangent, normal, length } = *self;
@@ -236,30 +222,26 @@ impl Surfaces {
     pub fn new(model: &Model) -> Result<Self, InputError> {
         let nodes = model.contact.nodes.clone();
         let boundary = |pair: [NodeId; 2]| model.sides.boundary(pair).map(|one| one.nodes);
-        let contact: Vec<Edge> = chain(&nodes, |pair| boundary(pair).is_some())
-            .into_iter()
-            .filter_map(boundary)
-            .map(|nodes| Edge { id: None, nodes })
-            .collect();
+        let contact = chain(&nodes, |pair| boundary(pair).is_some());
+        let contact = contact.into_iter().filter_map(boundary).collect();
         let target = |&id: &EdgeId| {
             let edge = model.edge(id);
             let [a, b] = edge.nodes;
-            let nodes = boundary(edge.nodes).ok_or_else(|| {
+            boundary(edge.nodes).ok_or_else(|| {
                 let what = format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number);
                 InputError::new("contact.trg", what, "name edges of the target body's outline")
-            })?;
-            Ok(Edge { id: Some(id), nodes })
+            })
         };
-        let target: Vec<Edge> =
-            model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
+        let target_edges = model.contact.target.clone();
+        let target = target_edges.iter().map(target).collect::<Result<_, InputError>>()?;
         let [contact, target] = [contact, target].map(|edges| Surface::new(model, edges));
-        Ok(Surfaces { nodes, at_rest: model.nodes.clone(), contact, target })
+        Ok(Surfaces { nodes, at_rest: model.nodes.clone(), contact, target, target_edges })
     }
 
     /// Returns the edges of both surfaces in a shape: their nodes, their normal and their length.
     pub fn edges(&self, shape: &[Vector]) -> Vec<([NodeId; 2], Vector, f64)> {
         let edges = self.contact.edges.iter().chain(&self.target.edges);
-        let placed = edges.map(|edge| (edge.nodes, edge.in_shape(shape)));
+        let placed = edges.map(|nodes| (*nodes, PlacedEdge::new(*nodes, shape)));
         placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
     }
 
@@ -273,28 +255,22 @@ impl Surfaces {
         self.contact.across.contains_key(&node)
     }
 
-    /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length;
-    /// 0 where edges meet at less than an angle, rad.
-    pub fn facet_height(&self, nodes: &[NodeId], shape: &[Vector], least: f64) -> f64 {
-        let bend = |node: &NodeId| {
-            self.contact.bend_at(*node, shape).or_else(|| self.target.bend_at(*node, shape))
-        };
+    /// Returns the largest height of an arc over an undeformed edge at some nodes of either surface, length; 0
+    /// where edges meet at less than an angle, rad.
+    pub fn facet_height(&self, nodes: &[NodeId], least: f64) -> f64 {
+        let bend =
+            |node: &NodeId| self.contact.bend_at(*node).or_else(|| self.target.bend_at(*node));
         let bends = nodes.iter().filter_map(bend).filter(|[angle, _]| *angle > least);
         bends.map(|[_, height]| height).fold(0.0, f64::max)
-    }
-
-    /// Returns the entries of the contact surface, in order.
-    pub fn nodes(&self) -> &[NodeId] {
-        &self.nodes
     }
 
     /// Returns, for each entry of the contact surface, half the length of the contact edges that it
     /// bounds in a shape, length; 0 for a node's second entry.
     pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
         let mut of_node: FxHashMap<NodeId, T> = FxHashMap::default();
-        for edge in &self.contact.edges {
-            let half = edge.in_shape(shape).length / T::from_f64(2.0);
-            edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
+        for (edge, placed) in self.contact.edges.iter().zip(self.contact.in_shape(shape)) {
+            let half = placed.length / T::from_f64(2.0);
+            edge.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
         }
         self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(T::zero())).collect()
     }

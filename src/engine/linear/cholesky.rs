@@ -20,7 +20,8 @@ use super::symmetric::SparseSymmetric;
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
 /// matrix whose entries are of very different sizes.
 pub(super) fn is_large(pivot: f64, a: f64) -> bool {
-    /// The least part of `a`.
+    /// The least part of `a`: half of its digits are left. By what rounding alone leaves (`is_lost`) contact
+    /// states that little holds are searched on a matrix of few digits: a ring among the hard scenes is lost.
     const LEAST: f64 = 1e-8;
     pivot > LEAST * a
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use faer::sparse::SymbolicSparseColMatRef;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::factors::backward_error;
 use numbers::scalar::Scalar;
@@ -86,11 +86,6 @@ impl Pattern {
         self.rows[self.values(j)].iter().copied()
     }
 
-    /// Returns the places of the entries of the lower triangle: row and column.
-    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.size()).flat_map(|j| self.column(j).map(move |i| (i, j)))
-    }
-
     /// Returns the pattern as faer takes it.
     pub(super) fn view(&self) -> SymbolicSparseColMatRef<'_, usize> {
         let n = self.size();
@@ -170,20 +165,6 @@ impl<T: Clone> SparseSymmetric<T> {
 }
 
 impl<T: Scalar> SparseSymmetric<T> {
-    /// Takes the lower triangle of a dense matrix, zeros left out.
-    pub fn of_lower(matrix: &DMatrix<T>) -> Self {
-        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for (j, column) in matrix.column_iter().enumerate() {
-            let lower = column.iter().enumerate().skip(j).filter(|(_, value)| !value.is_zero());
-            lower.for_each(|(i, value)| {
-                rows.push(i);
-                values.push(*value);
-            });
-            starts.push(rows.len());
-        }
-        SparseSymmetric { pattern: Arc::new(Pattern { starts, rows }), values }
-    }
-
     /// Returns the product with a vector.
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());

@@ -1,7 +1,7 @@
 //! Corners of the target: no answer depends on the place, the direction or the order in which a
 //! scene is written, and no apex passes through the other body.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use engine::contact::{InsideNode, Surfaces, Watched};
 use engine::error::Error;
@@ -161,8 +161,7 @@ fn a_target_node_in_the_contact_body_is_found() {
     let scene =
         bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial).build().unwrap();
     let mut shape = scene.model.nodes.clone();
-    let none = HashSet::new();
-    let inside = |shape: &[[f64; 2]]| surfaces(&scene).inside(&scene.model, shape, [&none, &none]);
+    let inside = |shape: &[[f64; 2]]| surfaces(&scene).inside(&scene.model, shape, &HashMap::new());
     assert_eq!(inside(&shape), []);
     shape[3][1] = 0.85;
     let found = inside(&shape);

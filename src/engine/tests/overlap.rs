@@ -1,11 +1,10 @@
 //! Nodes that lie inside another body: how deep, and whether contact watches them, by hand.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use engine::contact::{InsideNode, Surfaces, Watched};
 use engine::{Request, solve};
 use problem::element::Plane;
-use problem::model::NodeId;
 use problem::modelling::{Coupling, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use testing::rows::scene_of;
@@ -32,8 +31,8 @@ fn inside(row: &str) -> Vec<(usize, Watched)> {
     shape[10..].iter_mut().for_each(|at| at[1] -= 0.1);
     let surfaces = Surfaces::new(&model).expect("edges of the outline");
     let facing = surfaces.pairings(Coupling::Mortar, &shape);
-    let facing: HashSet<NodeId> = facing.iter().flatten().map(|pairing| pairing.node).collect();
-    let mut found = surfaces.inside(&model, &shape, [&facing, &HashSet::new()]);
+    let facing = facing.iter().flatten().map(|pairing| (pairing.node, false)).collect();
+    let mut found = surfaces.inside(&model, &shape, &facing);
     found.sort_by_key(|inside| inside.node);
     for InsideNode { depth, height, .. } in &found {
         assert!((depth - 0.1).abs() < 1e-12 && *height == 0.0, "{depth} {height}");
@@ -84,8 +83,7 @@ fn the_facets_of_flush_curved_surfaces_have_their_height() {
         .contact(contact);
     let scene = scene.build().expect("it is sound");
     let surfaces = Surfaces::new(&scene.model).expect("edges of the outline");
-    let nothing = HashSet::new();
-    let found = surfaces.inside(&scene.model, &scene.model.nodes, [&nothing, &nothing]);
+    let found = surfaces.inside(&scene.model, &scene.model.nodes, &HashMap::new());
     let height = 10.0 * (1.0 - (1.0_f64 / 12.0).cos());
     assert!(found.iter().any(|inside| inside.depth > 0.5 * height), "{found:?}");
     // The ends of both arcs are the same points.

@@ -1,12 +1,12 @@
 //! One solve on several settings: each against exact numbers, and what rounding is measured to do against the
 //! error.
 
+use super::systems::lower;
 use dashu_ratio::RBig;
 use engine::error::Error;
 use engine::estimates::perturbed;
 use engine::linear::{
-    Arithmetic, DenseLu, Inputs, Ldlt, ScalarName, Solver, SparseSymmetric, inverse_norm,
-    solve_dense,
+    Arithmetic, DenseLu, Inputs, Ldlt, ScalarName, Solver, inverse_norm, solve_dense,
 };
 use engine::{self, Request, Solution};
 use nalgebra::{DMatrix, DVector};
@@ -242,7 +242,7 @@ proptest! {
     fn exact_solvers_solve_exactly((a, b) in springs()) {
         let value = |x: f64| RBig::try_from(x).unwrap();
         let load: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
-        let x = Ldlt::new(&SparseSymmetric::of_lower(&a).map(|x| value(*x))).unwrap().solve(&load);
+        let x = Ldlt::new(&lower(&a).map(|x| value(*x))).unwrap().solve(&load);
         for i in 0..b.len() {
             let products = (0..b.len()).map(|j| value(a[(i, j)]) * &x[j]);
             let product = products.fold(RBig::ZERO, |s, p| s + p);

@@ -298,7 +298,7 @@ fn a_run_binds_by_the_weights_of_its_shapes() {
         for step in &solution.steps {
             let pairs = pairs(Intersection, &solution.model, &reading, &step.shape).unwrap();
             let Detail::Published(found) = &step.detail else { panic!("stepped searches") };
-            assert_eq!(found.whole(), pairs, "{reading:?}, step {}", step.k);
+            assert_eq!(*found, pairs, "{reading:?}, step {}", step.k);
             let bound = door::linked(&sheet, &pairs).into_iter().map(Constraint::from);
             assert_eq!(step.constraints, bound.collect::<Vec<_>>(), "{reading:?}");
         }

@@ -137,7 +137,7 @@ impl Problem<'_> {
             let change = apart(&to.u);
             if change > APART * scale && others.iter().all(|(u, _)| apart(u) > APART * scale) {
                 let nodes = |wanted: fn(&Status) -> bool| {
-                    let entries = statuses.iter().zip(self.surfaces.nodes());
+                    let entries = statuses.iter().zip(&self.model.contact.nodes);
                     entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
                 };
                 let stick = nodes(|status| *status == Status::Stick);

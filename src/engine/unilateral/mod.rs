@@ -68,21 +68,4 @@ mod status;
 mod unrestrained;
 
 pub use implied::{Implied, implied};
-
-use super::error::Error;
-use super::request::Request;
-use super::solution::{Solution, Step};
-
-/// Finds the equilibrium at the end of the load's path, which is the last step; `watch` is called
-/// after each iteration.
-///
-/// # Errors
-/// Contact and restraints do not restrain the bodies, or no equilibrium was found.
-pub(super) fn unilateral(
-    request: &Request,
-    watch: &mut dyn FnMut(&Step),
-) -> Result<Solution, Error> {
-    let model = request.model()?;
-    let problem = problem::Problem::new(request, &model)?;
-    path::solve(&problem, watch)
-}
+pub(super) use path::unilateral;

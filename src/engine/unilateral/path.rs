@@ -12,6 +12,7 @@ use crate::contact::{
 };
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::reactions::{reactions, support_force, transmitted_force};
+use crate::request::Request;
 use crate::solution::{
     self, Detail, Overlap, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
@@ -47,16 +48,22 @@ impl Point {
     }
 }
 
-/// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one.
+/// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one;
+/// `watch` is called after each iteration.
 ///
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
-pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+pub(crate) fn unilateral(
+    request: &Request,
+    watch: &mut dyn FnMut(&Step),
+) -> Result<Solution, Error> {
+    let model = request.model()?;
+    let problem = &Problem::new(request, &model)?;
     problem.turns_nowhere()?;
     let with_friction = problem.friction > 0.0;
     let stages = problem.stages();
     let (steps, halvings) =
-        if with_friction { (problem.request.contact.load_steps, HALVINGS) } else { (1, 0) };
+        if with_friction { (request.contact.load_steps, HALVINGS) } else { (1, 0) };
     let keeps_all =
         with_friction && problem.number_of_states(&problem.at_rest(), stages * steps).is_some();
     let (factored, halved) = (0, 0);
@@ -115,7 +122,7 @@ impl<'a> Run<'a> {
         if problem.friction == 0.0 {
             return Ok((Start::Held, rest));
         }
-        if !problem.overlaps(&config) {
+        if !problem.overlaps() {
             let held = problem.is_held_initially(&config);
             return Ok((if held { Start::Held } else { Start::Loose }, rest));
         }
@@ -278,41 +285,30 @@ impl<'a> Run<'a> {
         to: f64,
         search: impl Fn(&Problem<'a>, &Setting, &mut Watch) -> Result<Equilibrium, Error>,
     ) -> Result<Equilibrium, Error> {
-        let load = self.problem.load(to);
         let setting = self.problem.setting(to, &from.u, from.statuses.as_deref());
-        search(self.problem, &setting, &mut |config, iteration| {
-            self.keep(to, &load, config, iteration);
-        })
+        search(self.problem, &setting, &mut |config, iteration| self.keep(to, config, iteration))
     }
 
     /// Solves the last contact state, at the load `to`, on the whole bodies.
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
-        let load = self.problem.load(to);
         let last = self.taken.pop().expect("a path has a step");
-        let setting = self.problem.setting(to, &last.from.u, None);
-        let setting = Setting { whole: true, ..setting };
+        let setting = Setting { whole: true, ..setting(self.problem, &last) };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
-            self.keep(to, &load, config, iteration);
+            self.keep(to, config, iteration);
         });
         let end = end.map_err(|why| self.with_load(why, to))?;
         let k = self.steps.len();
         if let Some(last) = self.steps.last_mut() {
-            *last = step(self.problem, (k, to), &load, &end.config, &end.last);
+            *last = step(self.problem, (k, to), &end.config, &end.last);
         }
         self.take(&last.from, to, &end);
         Ok(end)
     }
 
     /// Adds an iteration to the steps.
-    fn keep(
-        &mut self,
-        to: f64,
-        load: &DVector<f64>,
-        config: &Configuration,
-        iteration: &Iteration,
-    ) {
+    fn keep(&mut self, to: f64, config: &Configuration, iteration: &Iteration) {
         self.factored += usize::from(!iteration.returned);
-        let step = step(self.problem, (self.steps.len() + 1, to), load, config, iteration);
+        let step = step(self.problem, (self.steps.len() + 1, to), config, iteration);
         (self.watch)(&step);
         self.steps.push(step);
     }
@@ -364,15 +360,15 @@ impl<'a> Run<'a> {
 fn step(
     problem: &Problem,
     (k, to): (usize, f64),
-    load: &DVector<f64>,
     config: &Configuration,
     iteration: &Iteration,
 ) -> Step {
     let Iteration { statuses, constraints, cycle, solution, violation, .. } = iteration;
+    let load = problem.load(to);
     let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
     let at_supports = problem.supports.iter().copied();
-    let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-    let support = support_force(problem.model, &reaction, load);
+    let reaction = problem.stiffness.times_of(at_supports, &solution.u) - &load - contact;
+    let support = support_force(problem.model, &reaction, &load);
     let target_force = transmitted_force(problem.model, support);
     Step {
         k,
@@ -389,7 +385,7 @@ fn step(
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
             pairings: Arc::clone(&config.pairings),
-            friction_needed: friction_needed(statuses, &solution.forces),
+            friction_needed: friction_needed(&solution.forces),
             friction: solution.friction.clone(),
             springs: iteration.springs,
         }),
@@ -397,9 +393,8 @@ fn step(
 }
 
 /// Returns the largest shear over pressure of a node that is pressed by more than rounding.
-fn friction_needed(statuses: &[Status], forces: &[ContactForce]) -> Option<f64> {
-    let closed = statuses.iter().zip(forces).filter(|(status, _)| status.is_closed());
-    let known = closed.map(|(_, force)| force).filter(|force| !force.undetermined);
+fn friction_needed(forces: &[ContactForce]) -> Option<f64> {
+    let known = forces.iter().filter(|force| !force.undetermined);
     let least = ROUNDING_OF_A_FORCE * known.clone().fold(0.0, |most, f| f.normal.abs().max(most));
     let pressed = known.filter(|force| force.normal > least);
     pressed.map(|force| force.tangent.abs() / force.normal).reduce(f64::max)

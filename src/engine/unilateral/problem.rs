@@ -2,7 +2,6 @@
 //! impose.
 
 use std::cell::LazyCell;
-use std::collections::HashSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -13,9 +12,10 @@ use crate::contact::{
     ContactForce, InsideNode, Pairing, Sense, Status, Surfaces, Watched, contact_forces,
 };
 use crate::elimination::{Constraint, Motion};
+use crate::linear::EliminatedLoad;
 use crate::range::inside_out;
 use crate::reactions::supports;
-use crate::reduction::{ReducedLoad, Reduction};
+use crate::reduction::Reduction;
 use crate::request::Request;
 use crate::solution::{APART, Cycle, max_displacement};
 use crate::stiffness::Stiffness;
@@ -78,8 +78,6 @@ pub(super) struct Problem<'a> {
     pub(super) reduction: Option<Reduction>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
-    /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
-    pub(super) springs: f64,
     /// The target that each contact node faces in the initial shape.
     initial: Arc<Vec<Option<Pairing>>>,
 }
@@ -91,7 +89,7 @@ pub(super) struct Setting<'a> {
     /// The part of the path that is applied; whole numbers end stages.
     pub(super) part: f64,
     /// The load on the contact surfaces; None where states are not looked for on these.
-    pub(super) reduced: Option<ReducedLoad>,
+    pub(super) reduced: Option<EliminatedLoad>,
     /// Whether the equations of the whole bodies are solved, also by the factors of those on the surfaces.
     pub(super) whole: bool,
     /// The displacements from which slips count, length.
@@ -200,7 +198,6 @@ impl<'a> Problem<'a> {
                 mu => mu,
             },
             initial,
-            springs: 0.0,
         })
     }
 
@@ -212,7 +209,6 @@ impl<'a> Problem<'a> {
             reduction: None,
             stiffness: Stiffness::on_springs(self.model, stiffness),
             initial: Arc::clone(&self.initial),
-            springs: stiffness,
             ..*self
         }
     }
@@ -272,9 +268,13 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
-    pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
-        let gap = |p: &Pairing| p.gap_after(self.model, u);
-        config.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
+    pub(super) fn gaps(&self, pairings: &[Option<Pairing>], u: &DVector<f64>) -> Vec<Option<f64>> {
+        pairings.iter().map(|p| Some(p.as_ref()?.gap_after(self.model, u))).collect()
+    }
+
+    /// Returns the gap of each entry before any load, length.
+    pub(super) fn initial_gaps(&self) -> Vec<Option<f64>> {
+        self.gaps(&self.initial, &DVector::zeros(self.model.dofs()))
     }
 
     /// Returns the status with which an entry closes.
@@ -362,21 +362,16 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns whether a node stands inside the target before any load.
-    pub(super) fn overlaps(&self, config: &Configuration) -> bool {
-        self.initial_gaps(config).iter().flatten().any(|gap| *gap < -self.closed)
+    pub(super) fn overlaps(&self) -> bool {
+        self.initial_gaps().iter().flatten().any(|gap| *gap < -self.closed)
     }
 
     /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
     pub(super) fn is_held_initially(&self, config: &Configuration) -> bool {
-        let statuses = self.closed_within(config, &self.initial_gaps(config), self.closed);
+        let statuses = self.closed_within(config, &self.initial_gaps(), self.closed);
         let before = DVector::zeros(self.model.dofs());
         let setting = self.setting(0.0, &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
-    }
-
-    /// Returns the gap of each entry before any load, length.
-    pub(super) fn initial_gaps(&self, config: &Configuration) -> Vec<Option<f64>> {
-        self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
     /// Returns the height of the arcs over the edges of curved surfaces at the nodes in contact, and how far
@@ -385,16 +380,15 @@ impl<'a> Problem<'a> {
     /// target and the smallest gap left, where arcs on both sides may close it. None where edges meet at less
     /// than the largest strain, rad, which irons them out.
     pub(super) fn coarse_facets(&self, last: &Iteration, strain: f64) -> Option<[f64; 2]> {
-        let at_rest = self.at_rest();
         let is_apart = !last.statuses.iter().any(|status| status.is_closed());
-        let gaps = if is_apart { last.gaps.clone() } else { self.initial_gaps(&at_rest) };
-        let pairs = at_rest.pairings.iter().zip(gaps).zip(&last.statuses);
+        let gaps = if is_apart { last.gaps.clone() } else { self.initial_gaps() };
+        let pairs = self.initial.iter().zip(gaps).zip(&last.statuses);
         let pairs = pairs.filter(|(_, status)| is_apart || status.is_closed());
         let (pairings, gaps): (Vec<&Pairing>, Vec<f64>) =
             pairs.filter_map(|((pairing, gap), _)| Some((pairing.as_ref()?, gap?))).unzip();
         let masters = pairings.iter().flat_map(|p| p.masters.iter().map(|(node, _)| *node));
         let nodes: Vec<NodeId> = pairings.iter().map(|p| p.node).chain(masters).collect();
-        let height = self.surfaces.facet_height(&nodes, &self.model.nodes, strain);
+        let height = self.surfaces.facet_height(&nodes, strain);
         let [least, most] = [f64::min, f64::max].map(|of| gaps.iter().copied().reduce(of));
         let (compared, part) = match is_apart {
             true => (least?, BOTH),
@@ -407,10 +401,8 @@ impl<'a> Problem<'a> {
     /// contact does not watch deeper than rounding and the facets of curved surfaces, the others deeper than
     /// [`UNSEEN`].
     pub(super) fn inside(&self, config: &Configuration, last: &Iteration) -> Vec<InsideNode> {
-        let facing = config.pairings.iter().flatten().map(|pairing| pairing.node).collect();
-        let closed = config.pairings.iter().zip(&last.statuses);
-        let closed = closed.filter(|(_, status)| status.is_closed());
-        let closed = closed.filter_map(|(pairing, _)| Some(pairing.as_ref()?.node)).collect();
+        let facing = config.pairings.iter().zip(&last.statuses);
+        let facing = facing.filter_map(|(p, status)| Some((p.as_ref()?.node, status.is_closed())));
         let u = &last.solution.u;
         let shape = self.model.shape(u);
         // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own
@@ -418,7 +410,7 @@ impl<'a> Problem<'a> {
         if inside_out(self.model, &shape).next().is_some() {
             return Vec::new();
         }
-        let mut found = self.surfaces.inside(self.model, &shape, [&facing, &closed]);
+        let mut found = self.surfaces.inside(self.model, &shape, &facing.collect());
         let sees_target = match self.request.contact.coupling {
             Coupling::Nts => false,
             Coupling::Mortar => true,
@@ -440,9 +432,8 @@ impl<'a> Problem<'a> {
     /// coordinates have it, length: the deepest of those within [`WRITTEN`]. 0 where all coordinates have all
     /// their digits: no part of what the load does is taken for rounding.
     fn written(&self) -> f64 {
-        let facing = self.initial.iter().flatten().map(|pairing| pairing.node).collect();
-        let shape = &self.model.nodes;
-        let mut at_rest = self.surfaces.inside(self.model, shape, [&facing, &HashSet::new()]);
+        let facing = self.initial.iter().flatten().map(|pairing| (pairing.node, false)).collect();
+        let mut at_rest = self.surfaces.inside(self.model, &self.model.nodes, &facing);
         let within = WRITTEN * farthest(self.model);
         at_rest.retain(|inside| inside.watched == Watched::Not && inside.depth <= within);
         at_rest.first().map_or(0.0, |inside| inside.depth)

@@ -37,7 +37,7 @@ pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
     for (direction, _, Constraint { node, masters, .. }) in
         constraints.iter().flat_map(Constraint::equations)
     {
-        let row = motions.in_free(&motions.relative(*node, masters, direction));
+        let row = motions.relative(*node, masters, direction);
         let bound: Vec<usize> = (0..row.len()).filter(|k| row[*k] != 0.0).collect();
         for (i, j) in bound.iter().flat_map(|i| bound.iter().map(move |j| (*i, *j))) {
             gram[(i, j)] += row[i] * row[j];
@@ -78,16 +78,11 @@ pub(super) fn escape(
         .iter()
         .flat_map(|pairing| {
             let forces = extreme_forces(pairing, friction(pairing)).into_iter();
-            forces.map(|force| {
-                motions.in_free(&motions.relative(pairing.node, &pairing.masters, force))
-            })
+            forces.map(|force| motions.relative(pairing.node, &pairing.masters, force))
         })
         .collect();
-    let forces = if columns.is_empty() {
-        DMatrix::zeros(motions.free, 0)
-    } else {
-        DMatrix::from_columns(&columns)
-    };
+    let entries = columns.iter().flat_map(|column| column.iter().copied());
+    let forces = DMatrix::from_iterator(motions.free, columns.len(), entries);
     let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
     let left = &f + forces * sizes;
     if left.amax() <= BALANCED * load.amax() {
@@ -127,7 +122,7 @@ pub(super) fn release(
 ) -> Option<Release> {
     let motions = RigidMotions::new(model, shape);
     let deepest = pairings.iter().map(|(_, gap)| -gap).fold(0.0, f64::max);
-    let along = |p: &Pairing, to| motions.in_free(&motions.relative(p.node, &p.masters, to));
+    let along = |p: &Pairing, to| motions.relative(p.node, &p.masters, to);
     let opening = |p: &Pairing| along(p, p.normal);
     let mut near = pairings.to_vec();
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -285,16 +280,16 @@ impl<'a> RigidMotions<'a> {
             self.model.all_dofs().filter(|dof| load[dof.index()] != 0.0).filter_map(of_dof);
         let rows =
             loaded.map(|(b, dof, force)| (b, self.motion(b, dof.node(), dof.unit()) * force));
-        self.in_free(&rows.collect::<Vec<_>>())
+        self.in_free(rows)
     }
 
     /// Returns what is given for the motions of some bodies for each free motion.
-    fn in_free(&self, rows: &[(usize, Vector3<f64>)]) -> DVector<f64> {
+    fn in_free(&self, rows: impl Iterator<Item = (usize, Vector3<f64>)>) -> DVector<f64> {
         let mut all = DVector::zeros(self.free);
         for (b, row) in rows {
-            let (from, basis) = &self.bases[*b];
+            let (from, basis) = &self.bases[b];
             let mut own = all.rows_mut(*from, basis.ncols());
-            own += basis.tr_mul(row);
+            own += basis.tr_mul(&row);
         }
         all
     }
@@ -311,21 +306,20 @@ impl<'a> RigidMotions<'a> {
         DVector::from_iterator(self.model.dofs(), u)
     }
 
-    /// Returns the component along `direction` of a node's motion less that of its masters in the rigid
-    /// motions of their bodies.
+    /// Returns the component along `direction` of a node's motion less that of its masters in each free motion.
     fn relative(
         &self,
         node: NodeId,
         masters: &[(NodeId, f64)],
         direction: [f64; 2],
-    ) -> Vec<(usize, Vector3<f64>)> {
+    ) -> DVector<f64> {
         let target = masters.iter().map(|(master, w)| (*master, -w));
         let parts = std::iter::once((node, 1.0)).chain(target);
         let of_part = |(node, w): (NodeId, f64)| {
             let b = self.body[node.index()]?;
             Some((b, self.motion(b, node, direction) * w))
         };
-        parts.filter_map(of_part).collect()
+        self.in_free(parts.filter_map(of_part))
     }
 
     /// Returns the component along `direction` of a node's motion in the rigid motions of its body.

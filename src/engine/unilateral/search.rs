@@ -63,7 +63,7 @@ impl Problem<'_> {
             };
             let mut config = self.configuration(u);
             if before.is_none() {
-                gaps = self.gaps(&config, u);
+                gaps = self.gaps(&config.pairings, u);
             }
             let mut last =
                 self.settle(&mut config, setting, start, &mut history, &mut keep_first)?;
@@ -210,7 +210,7 @@ impl StateSearch<'_> {
         let Err(Error::Equilibrium(why)) = found else { return found };
         let problem = self.problem;
         if !problem.is_current()
-            && problem.springs == 0.0
+            && problem.stiffness.springs == 0.0
             && let Some(dof) = problem.escape(self.config, &self.setting.load, problem.friction)
         {
             return Err(problem.escapes(dof).into());
@@ -265,7 +265,7 @@ impl StateSearch<'_> {
 
     /// Closes the nodes that touch or penetrate, else those with the least gap.
     fn first_statuses(&self) -> Vec<Status> {
-        let gaps = self.problem.gaps(self.config, self.setting.before);
+        let gaps = self.problem.gaps(&self.config.pairings, self.setting.before);
         let least = gaps.iter().flatten().copied().fold(f64::INFINITY, f64::min).max(0.0);
         self.problem.closed_within(self.config, &gaps, least + self.problem.closed)
     }
@@ -387,14 +387,14 @@ impl StateSearch<'_> {
         cycle: Option<Cycle>,
         solution: StateSolution,
     ) -> Iteration {
-        let gaps = self.problem.gaps(self.config, &solution.u);
+        let gaps = self.problem.gaps(&self.config.pairings, &solution.u);
         let missed = gaps.iter().zip(&statuses).map(|(gap, status)| match gap {
             Some(gap) if status.is_closed() => gap.abs(),
             Some(gap) => (-gap).max(0.0),
             None => 0.0,
         });
         let violation = missed.fold(0.0, f64::max);
-        let springs = self.problem.springs;
+        let springs = self.problem.stiffness.springs;
         Iteration {
             statuses,
             constraints,
@@ -409,7 +409,7 @@ impl StateSearch<'_> {
 
     /// Closes more nodes, or lets one stick; false where there is none.
     fn restrain_more(&self, statuses: &mut [Status], t: &Elimination) -> bool {
-        let gaps = self.problem.gaps(self.config, self.setting.before);
+        let gaps = self.problem.gaps(&self.config.pairings, self.setting.before);
         let first =
             self.motion(t).and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
         let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);

@@ -68,7 +68,7 @@ impl Problem<'_> {
             let moved = &last.solution.u - &u;
             let change = largest(moved.as_slice());
             // Without load the forces of contact vanish with those of the springs, to rounding.
-            let whole = self.force_of(&springs, &last.solution.u) / springs.springs;
+            let whole = self.force_of(&springs, &last.solution.u) / springs.stiffness.springs;
             let rounding = f64::EPSILON / SETTLED * largest(whole.as_slice());
             let forces = last.solution.forces.iter().map(|f| f.normal.hypot(f.tangent));
             most = forces.fold(most, f64::max).max(largest(setting.load.as_slice())).max(rounding);
@@ -81,7 +81,8 @@ impl Problem<'_> {
             }
             let softer = if moved.dot(&last_move) < 0.0 { BACK } else { ONWARDS };
             let [softest, stiffest] = RANGE;
-            springs = self.with_springs((springs.springs * softer).clamp(softest, stiffest));
+            springs =
+                self.with_springs((springs.stiffness.springs * softer).clamp(softest, stiffest));
             (u, statuses, last_move) = (last.solution.u, Some(last.statuses), moved);
         }
         let escaping = self.escape(&config, &setting.load, self.friction);

@@ -26,7 +26,7 @@ impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
     pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
-        let gaps = self.initial_gaps(&self.at_rest()).into_iter().flatten();
+        let gaps = self.initial_gaps().into_iter().flatten();
         let least = gaps.reduce(f64::min).filter(|least| *least > self.closed);
         let apart = least.map_or(String::new(), |least| {
             format!(", whose surfaces are at least {} apart,", six_digits(least))
@@ -139,7 +139,7 @@ impl Problem<'_> {
         let reach = lengths.fold(f64::INFINITY, f64::min);
         for _ in 0..RELEASES {
             let config = self.configuration(&u);
-            let gaps = self.gaps(&config, &u);
+            let gaps = self.gaps(&config.pairings, &u);
             let facing = config.pairings.iter().zip(gaps);
             let facing: Vec<_> = facing.filter_map(|(p, gap)| p.as_ref().zip(gap)).collect();
             if facing.iter().all(|(_, gap)| *gap >= -self.closed) {

@@ -23,22 +23,22 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
         .column("ct", |(_, status)| number(status.edge))
         .column("yt", |(_, status)| status.distance)
         .column("dy", |(_, status)| u8::from(status.in_contact));
-    let linked: Vec<NodeId> =
-        model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0)).collect();
-    let count = linked.len();
-    let mut rows = Table::from_rows(linked)
-        .column("node", |node| *node)
-        .column("tied to", |node| Cell::decimals(call.row(*node)[0], 0))
-        .column("weight", |node| call.row(*node)[1])
-        .column("tied to", |node| Cell::decimals(call.row(*node)[2], 0))
-        .column("weight", |node| call.row(*node)[3])
-        .column("surface", |node| match model.contact.nodes.contains(node) {
+    let written = call.pairs.written().map(|(node, row)| (NodeId::from_number(node), row));
+    let written: Vec<(NodeId, [f64; 4])> = written.collect();
+    let count = written.len();
+    let mut rows = Table::from_rows(written)
+        .column("node", |(node, _)| *node)
+        .column("tied to", |(_, row)| Cell::decimals(row[0], 0))
+        .column("weight", |(_, row)| row[1])
+        .column("tied to", |(_, row)| Cell::decimals(row[2], 0))
+        .column("weight", |(_, row)| row[3])
+        .column("surface", |(node, _)| match model.contact.nodes.contains(node) {
             true => "contact",
             false => "target",
         });
     if is_figure {
         found = found.column("in fig. 1", |(_, status)| in_figure(status.node));
-        rows = rows.column("in fig. 1", |node| in_figure(*node));
+        rows = rows.column("in fig. 1", |(node, _)| in_figure(*node));
     }
     Report::default()
         .notes(scene.adapted().to_vec())

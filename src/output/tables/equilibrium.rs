@@ -127,7 +127,7 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
 pub fn initial_gaps(model: &Model, units: &Units) -> Option<String> {
     let length = |x: f64| with_unit(&short(x), &units.length);
     Some(match Surfaces::new(model).ok()?.initial_gaps(model)? {
-        InitialGaps::Overlap { nodes, node, depth, facet_height } => {
+        InitialGaps::Overlap(Overlap { nodes, node, depth, facet_height }) => {
             let lie = if nodes == 1 { "node lies" } else { "nodes lie" };
             let facets = match facet_height > 0.0 {
                 true => {

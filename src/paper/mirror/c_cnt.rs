@@ -32,6 +32,17 @@ impl<T: Scalar> Pairs<T> {
         Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
     }
 
+    /// Returns the row of k_cnt of a node, given by its number.
+    pub fn row(&self, node: usize) -> [T; 4] {
+        [1, 2, 3, 4].map(|j| self.k_cnt[(node, j)])
+    }
+
+    /// Returns the number of each node in whose row of k_cnt something is written, ascending, with the row.
+    pub fn written(&self) -> impl Iterator<Item = (usize, [T; 4])> {
+        let rows = (1..=self.k_cnt.rows()).map(|node| (node, self.row(node)));
+        rows.filter(|(_, row)| row.iter().any(|x| !x.is_zero()))
+    }
+
     /// Returns the same pairs in other numbers.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairs<U> {
         Pairs {

@@ -184,7 +184,7 @@ impl Effect {
                         let Detail::Published(own) = &step.detail else {
                             unreachable!("a published variant")
                         };
-                        assert_eq!(call.pairs, own.whole(), "{} changes no value", self.reading);
+                        assert_eq!(call.pairs, *own, "{} changes no value", self.reading);
                     }
                 }
                 (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));

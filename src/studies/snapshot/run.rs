@@ -277,7 +277,7 @@ impl Pairs {
             Detail::Published(own) => {
                 pairs.ct.extend_from_slice(own.ct.as_slice());
                 pairs.yt.extend_from_slice(own.yt.as_slice());
-                for (node, row) in &own.masters {
+                for (node, row) in own.written() {
                     pairs.mates.push(format!("{node}: {} {}", row[0], row[2]));
                     pairs.weights.extend([row[1], row[3]]);
                 }
@@ -348,7 +348,7 @@ impl Recorded<'_> {
             (Detail::Published(own), Variant::Printed) => {
                 (model.nodes.len() <= DENSE).then_some(())?;
                 let sheet = door::worksheet(model, |x| x);
-                let matrix = Km(&sheet, &request.reading, &own.k_cnt()).ok()?;
+                let matrix = Km(&sheet, &request.reading, &own.k_cnt).ok()?;
                 let matrix = matrix.into_sparse().dense();
                 let places = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j)));
                 let lower = places.map(|(i, j)| (i, j, matrix[(i, j)]));

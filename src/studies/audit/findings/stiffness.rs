@@ -157,7 +157,7 @@ pub(super) fn pulls(case: &Case) -> Outcome<Evidence> {
     let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
     let rounding = ROUNDING * force.amax();
     let statuses = match &solution.last().detail {
-        Detail::Published(step) => door::statuses(&solution.model, &step.whole()),
+        Detail::Published(step) => door::statuses(&solution.model, step),
         Detail::Unilateral(_) => Vec::new(),
     };
     let push = |i: usize| {

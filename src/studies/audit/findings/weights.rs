@@ -19,7 +19,7 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<Evidence> {
         let sheet = worksheet(&solution.model, |x| x);
         for step in &solution.steps {
             let Detail::Published(found) = &step.detail else { continue };
-            for NodeToSegment { node, masters } in linked(&sheet, &found.whole()) {
+            for NodeToSegment { node, masters } in linked(&sheet, found) {
                 let [k1, k2] = masters.map(|(_, weight)| weight);
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
                 if outside > furthest.number.unwrap_or(0.0).max(ROUNDING) {
