@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, NodeEnd, Status, Surfaces, reactions, status};
+use super::contact::{ContactNode, NodeEnd, Status, Surfaces, reactions, status_rules};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
@@ -49,7 +49,7 @@ pub(super) fn published<T: Precision>(
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let mut run = Run {
+    let mut run = Iterations {
         equations: Equations::new(request, &model, &sheet, interpreter, &number)?,
         surfaces: match request.bound_by() {
             Some(Coupling::Mortar) => Some(Surfaces::new(&model)?),
@@ -145,7 +145,7 @@ fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
 }
 
 /// The state of a run that an iteration needs of those before it.
-struct Run<'a, T> {
+struct Iterations<'a, T> {
     /// The equations of every iteration.
     equations: Equations<'a, T>,
     /// The surfaces of a coupling that has weights of its own; None where they are those of `c_cnt`.
@@ -177,7 +177,7 @@ struct FoundState<T> {
     measured: Vec<Constraint<T>>,
 }
 
-impl<T: Precision> Run<'_, T> {
+impl<T: Precision> Iterations<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search()?;
         let k_cnt: Vec<(usize, [T; 4])> = found.pairs.written().collect();
@@ -218,7 +218,8 @@ impl<T: Precision> Run<'_, T> {
         } else if request.decides_by_listing() {
             mirror::c_cnt(sheet, reading, &node_n)?
         } else {
-            let found = status::statuses(request.contact.status, model, sheet, reading, &node_n)?;
+            let found =
+                status_rules::statuses(request.contact.status, model, sheet, reading, &node_n)?;
             door::pairs(model, sheet, reading, &node_n, &found)?
         };
         let mut constraints = bound(door::linked(sheet, &pairs));

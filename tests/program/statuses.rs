@@ -11,7 +11,7 @@ mod drawn;
 
 use fastrand::Rng;
 use plane_contact::Scene;
-use plane_contact::engine::contact::status::statuses;
+use plane_contact::engine::contact::status_rules::statuses;
 use plane_contact::numbers::scalar::Scalar;
 use plane_contact::paper::door;
 use plane_contact::paper::mirror::{Reading, c_cnt};

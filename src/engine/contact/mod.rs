@@ -3,12 +3,12 @@
 //! | question | where |
 //! |---|---|
 //! | what does a contact node face, and how far is it? | `pairing.rs`: by `nts.rs` with `outline.rs`, or by `mortar.rs` |
-//! | is it in contact under `printed`, `tied`, `stepped`? | `c_cnt`, or [`status`], by the rule that is asked for |
+//! | is it in contact under `printed`, `tied`, `stepped`? | `c_cnt`, or [`status_rules`], by the rule that is asked for |
 //! | is it open, does it stick or slide under `unilateral`? | `../unilateral/mod.rs` |
 //! | what is its force, and do its restraints leave it undetermined? | `forces.rs`, `direct` and `by_target` |
 //! | what is its traction? | `pressure.rs` |
 //!
-//! A gap is < 0 inside the target. The listing's `yt`, and what [`status`] gives in its place, is of the
+//! A gap is < 0 inside the target. The listing's `yt`, and what [`status_rules`] gives in its place, is of the
 //! opposite sign: > 0 where the target's line is above the node.
 
 mod forces;
@@ -21,7 +21,7 @@ mod overlap;
 mod pairing;
 mod pressure;
 pub mod search;
-pub mod status;
+pub mod status_rules;
 mod surface;
 pub use crate::quantities::ContactNode;
 pub(super) use forces::{ContactForce, add, contact_forces, load_of};

@@ -2,7 +2,7 @@
 
 use crate::faced;
 use engine::contact::search::closest;
-use engine::contact::status::statuses;
+use engine::contact::status_rules::statuses;
 use engine::contact::{NodeEnd, Pairing, Surfaces, reactions};
 use engine::{self, Constraint, Detail, Request};
 use nalgebra::DVector;

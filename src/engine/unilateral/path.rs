@@ -67,8 +67,15 @@ pub(crate) fn unilateral(
     let keeps_all =
         with_friction && problem.number_of_states(&problem.at_rest(), stages * steps).is_some();
     let (factored, halved) = (0, 0);
-    let mut run =
-        Run { problem, watch, steps: Vec::new(), factored, halved, keeps_all, taken: Vec::new() };
+    let mut run = PathSoFar {
+        problem,
+        watch,
+        steps: Vec::new(),
+        factored,
+        halved,
+        keeps_all,
+        taken: Vec::new(),
+    };
     let (start, from) = run.start()?;
     let loads = (1..=stages * steps).map(|step| step as f64 / steps as f64);
     let end = run.follow(from, loads, halvings)?;
@@ -94,7 +101,7 @@ fn changes(steps: &[Step]) -> usize {
 }
 
 /// What was found along the path so far.
-struct Run<'a> {
+struct PathSoFar<'a> {
     problem: &'a Problem<'a>,
     watch: &'a mut dyn FnMut(&Step),
     /// The iterations on the path, without those of steps that were divided.
@@ -108,7 +115,7 @@ struct Run<'a> {
     taken: Vec<TakenStep>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> PathSoFar<'a> {
     /// Returns where the path starts. Under friction nodes that overlap come to touch before any load, as
     /// they would slip with its first part otherwise: the bodies as rigid ones where nothing presses them
     /// together, else in a step of its own.
@@ -315,7 +322,7 @@ impl<'a> Run<'a> {
 
     /// Returns the solution, which is the end of the path.
     fn solution(self, end: Equilibrium, path: Option<Path>) -> Solution {
-        let Run { problem, steps, factored, taken, .. } = self;
+        let PathSoFar { problem, steps, factored, taken, .. } = self;
         let uniqueness = uniqueness(problem, &end, &taken);
         let setting = setting(problem, taken.last().expect("a path has a step"));
         let nearest = problem.search(&end.config, &setting).nearest_decision(&end.last);
