@@ -7,8 +7,8 @@ use crate::audit::prices::{self, Price};
 use crate::audit::{Audit, Case, audit, steps};
 use crate::calculix::{self, Pair};
 use crate::compare;
+use crate::report::Contents;
 use crate::report::page;
-use crate::report::{AssessedRun, Contents};
 use base::error::InputError;
 use base::files::{self, HTML};
 use base::plain::{shell_word, shown};
@@ -72,13 +72,14 @@ pub fn run(args: &Args) -> Result<()> {
 /// Computes a report and writes it to a file.
 fn write(args: &Args, case: &Case, found: &Audit, out: &Path) -> Result<()> {
     let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
+    let runs = runs(case);
     let contents = Contents {
-        scene: &case.scene,
         command: command(args),
         asked: asked(&case.scene),
         audit: found,
         repairs: repairs(args, case, found),
-        runs: runs(case, found),
+        assessment: runs.last().map(|last| assessed(case, found, last)),
+        runs,
         calculix,
     };
     Ok(files::write(out, &page::html(&contents))?)
@@ -95,22 +96,22 @@ fn repairs(args: &Args, case: &Case, audit: &Audit) -> Vec<Price> {
 }
 
 /// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and
-/// the equilibrium, for which the audit measured what rounding does.
-fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<AssessedRun<'a>> {
+/// the equilibrium.
+fn runs(case: &Case) -> Vec<&Solution> {
     let ran = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
+    ran.chain(case.reference()).chain(case.equilibrium()).collect()
+}
+
+/// Assesses a run, with what the audit measured rounding to do to the reference solution and the equilibrium.
+fn assessed<'a>(case: &'a Case, audit: &Audit, solution: &'a Solution) -> Assessment<'a> {
     let others = [case.reference(), case.equilibrium()];
-    let runs = ran.chain(others.into_iter().flatten());
-    let assessed = |solution: &'a Solution| {
-        let measured = [&audit.reference, &audit.equilibrium];
-        let rounding = others.iter().zip(measured).find_map(|(other, measured)| {
-            let same = solution.request.is_same_equilibrium(&(*other)?.request);
-            measured.as_ref().filter(|_| same)?.rounding.clone()
-        });
-        let mut assessment = Assessment::against(solution, others);
-        assessment.rounding = rounding.or(assessment.rounding);
-        AssessedRun { solution, assessment }
-    };
-    runs.map(assessed).collect()
+    let measured = [&audit.reference, &audit.equilibrium];
+    let rounding = others.iter().zip(measured).find_map(|(other, measured)| {
+        let same = solution.request.is_same_equilibrium(&(*other)?.request);
+        measured.as_ref().filter(|_| same)?.rounding.clone()
+    });
+    let assessment = Assessment::against(solution, others);
+    Assessment { rounding: rounding.or(assessment.rounding), ..assessment }
 }
 
 /// Returns the command that makes the report again, but for the place of its file.

@@ -16,7 +16,7 @@ use paper::mirror::READINGS;
 
 /// Returns the head of the page and its first screen.
 pub fn html(contents: &Contents, menu: &str) -> String {
-    let scene = contents.scene;
+    let scene = &contents.audit.scene;
     let under = claims::under(&contents.audit.conclusion.reading);
     let on = format!(" On scene {} ({}){under}.", scene.name, scene.title);
     let judged = format!("<p>{}</p>", escape(&(JUDGED.to_string() + &on)));

@@ -24,8 +24,6 @@ use problem::scene::{Scene, sha256_of};
 
 /// What an audit report is made of.
 pub struct Contents<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
     /// The command that makes the report again.
     pub command: String,
     /// What was asked, in words: what, and what it was set to.
@@ -35,17 +33,11 @@ pub struct Contents<'a> {
     /// The print, repaired one finding at a time; empty where that was not asked for.
     pub repairs: Vec<Price>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
-    pub runs: Vec<AssessedRun<'a>>,
+    pub runs: Vec<&'a Solution>,
+    /// What is said of the errors of the last of them; nothing without one.
+    pub assessment: Option<Assessment<'a>>,
     /// The run beside CalculiX.
     pub calculix: Option<Compared<'a>>,
-}
-
-/// A run of a report.
-pub struct AssessedRun<'a> {
-    /// What was computed.
-    pub solution: &'a Solution,
-    /// What is said of its errors.
-    pub assessment: Assessment<'a>,
 }
 
 /// A picture with its title.
@@ -98,15 +90,15 @@ fn what_was_audited() -> Report {
 /// Returns the runs of the pictures under short names: the paper's, then the equilibrium.
 fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
     let equilibrium = contents.audit.equilibrium.as_ref().map(|_| contents.runs.len() - 1);
-    let name = |(k, run): (usize, &AssessedRun)| {
-        let variant = run.solution.request.variant;
+    let name = |k: usize, run: &Solution| {
+        let variant = run.request.variant;
         match equilibrium == Some(k) {
             true => Some("equilibrium".into()),
             false => Variant::OF_THE_PAPER.contains(&variant).then(|| variant.to_string()),
         }
     };
     let runs = contents.runs.iter().enumerate();
-    runs.filter_map(|(k, run)| Some((name((k, run))?, run.solution))).collect()
+    runs.filter_map(|(k, run)| Some((name(k, run)?, *run))).collect()
 }
 
 /// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not
@@ -124,7 +116,7 @@ fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
 
 /// Returns the pictures of the first screen: the pressure of the runs, and the stress of two.
 fn pictures(contents: &Contents) -> Vec<Picture> {
-    let scene = contents.scene;
+    let scene = &contents.audit.scene;
     let runs = named(contents);
     let of_example =
         relative_radius(scene).and_then(|radius| Hertz::of_radius(runs.last()?.1, radius));
@@ -158,10 +150,10 @@ fn beside(scene: &Scene, runs: &[(String, &Solution)], field: &str) -> Option<Pi
 
 /// Shows the mesh, the strain, then stress, pressure, shear and gap of all runs.
 fn figures(contents: &Contents) -> Report {
-    let Some(AssessedRun { solution, assessment }) = contents.runs.last() else {
+    let (Some(solution), Some(assessment)) = (contents.runs.last(), &contents.assessment) else {
         return Report::default();
     };
-    let scene = contents.scene;
+    let scene = &contents.audit.scene;
     let [heading, mesh, strain] = match is_example(scene) {
         true => ["This project's own figures 4 and 5", "Figure 4: the mesh", "Figure 5b: "],
         false => ["Mesh and strain", "Mesh", ""],
@@ -184,10 +176,10 @@ fn figures(contents: &Contents) -> Report {
 
 /// Shows pressure, shear and gap along the contact surface, a curve of each run.
 fn surface(contents: &Contents) -> Report {
-    let runs: Vec<&Solution> = contents.runs.iter().map(|run| run.solution).collect();
+    let (scene, runs) = (&contents.audit.scene, &contents.runs);
     let hertz = runs.iter().rev().find_map(|run| Hertz::from_solution(run));
-    let picture = pressure::picture(contents.scene, &runs, hertz.as_ref());
-    let [shear, gap] = pressure::shear_and_gap(contents.scene, &runs);
+    let picture = pressure::picture(scene, runs, hertz.as_ref());
+    let [shear, gap] = pressure::shear_and_gap(scene, runs);
     Report::default()
         .heading("Contact surface")
         .figure("Contact pressure of every run", picture)
@@ -201,13 +193,13 @@ fn other_codes(contents: &Contents) -> Report {
     match &contents.calculix {
         Some(compared) => report.then(comparison::report(compared).deeper(2)),
         None => {
-            let recorded = is_example(contents.scene).then(|| {
+            let recorded = is_example(&contents.audit.scene).then(|| {
                 "What was recorded of CalculiX is in `plane-contact guide calculix`.".into()
             });
             let again = format!(
                 "This report ran no other code. `plane-contact report {} --ccx` runs CalculiX by its own contact \
                  beside the variant unilateral.",
-                contents.scene.word
+                contents.audit.scene.word
             );
             recorded.into_iter().chain([again]).fold(report, Report::line)
         }
@@ -216,7 +208,7 @@ fn other_codes(contents: &Contents) -> Report {
 
 /// Reports what makes the report again: the command, and what it starts from.
 fn origin(contents: &Contents) -> Report {
-    let Contents { scene, command, asked, .. } = contents;
+    let Contents { audit: Audit { scene, .. }, command, asked, .. } = contents;
     let asked = asked.iter().map(|(what, value)| (what.to_string(), value.clone()));
     let own = ["scene", "mesh"].map(String::from).into_iter().zip(scene.hashes().iter().cloned());
     let listings = Which::ALL.iter().map(|which| (format!("listing {which}"), hash(which.text())));
