@@ -6,7 +6,7 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::numbers::{Number, Numbers, Tolerance, UNMEASURED};
+use super::numbers::{Number, Numbers, Tolerance, limit};
 use super::{Entry, Quantity, Run};
 
 /// A difference between two runs.
@@ -160,16 +160,12 @@ fn numbers(was: &Numbers, is: &Numbers, given: Option<Tolerance>) -> Option<Kind
     let largest = was.largest();
     let rounding = is.rounding().map(|new| was.rounding().map_or(new, |old| old.min(new)));
     let tolerance = was.tolerance.or(given);
-    let limit = |value: f64| match tolerance {
-        Some(tolerance) => tolerance.limit(value, largest, rounding.unwrap_or(0.0)),
-        None => rounding.unwrap_or(UNMEASURED * largest),
-    };
     let bounded = tolerance.is_some() || rounding.is_some();
     let unit = &was.unit;
     let mut worst: Option<(f64, Worst)> = None;
     let mut differing = 0;
     for ((at, was), (_, is)) in old.iter().zip(&new) {
-        let (error, limit) = ((was - is).abs(), limit(*was));
+        let (error, limit) = ((was - is).abs(), limit(tolerance, *was, largest, rounding));
         // What is no finite number is within any limit of its kind, and of no other number.
         let is_same = if error.is_finite() { error <= limit } else { Number(*was) == Number(*is) };
         if is_same {

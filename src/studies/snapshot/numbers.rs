@@ -149,15 +149,16 @@ impl TryFrom<Parts> for Tolerance {
     }
 }
 
-impl Tolerance {
-    /// Returns the largest difference that is no difference from `value`, in an array whose largest
-    /// number is `largest`; what is a part of a number is no less than what `rounding` does.
-    pub fn limit(self, value: f64, largest: f64, rounding: f64) -> f64 {
-        let relative = self.relative.map(|part| (part * largest).max(rounding));
-        let ulp = value.abs().next_up() - value.abs();
-        let ulps = self.ulps.map(|count| (count * ulp).max(rounding));
-        [self.absolute, relative, ulps].into_iter().flatten().fold(0.0, f64::max)
-    }
+/// Returns the largest difference that is no difference from `value`, in an array whose largest number is
+/// `largest`: by a tolerance, whose parts of a number are no less than what `rounding` does, else that.
+pub fn limit(given: Option<Tolerance>, value: f64, largest: f64, rounding: Option<f64>) -> f64 {
+    let Some(Tolerance { absolute, relative, ulps }) = given else {
+        return rounding.unwrap_or(UNMEASURED * largest);
+    };
+    let ulp = value.abs().next_up() - value.abs();
+    let parts = [relative.map(|part| part * largest), ulps.map(|count| count * ulp)];
+    let parts = parts.map(|part| Some(part?.max(rounding.unwrap_or(0.0))));
+    parts.into_iter().chain([absolute]).flatten().fold(0.0, f64::max)
 }
 
 impl Numbers {
@@ -199,11 +200,8 @@ impl Numbers {
     /// Writes a number with the digits that are compared, six at most, by the array's own tolerance, one that is `given` for
     /// all, or what rounding does.
     pub fn written(&self, x: f64, given: Option<Tolerance>) -> String {
-        let (largest, rounding) = (self.largest(), self.rounding());
-        let limit = match self.tolerance.or(given) {
-            Some(tolerance) => tolerance.limit(x, largest, rounding.unwrap_or(0.0)),
-            None => rounding.unwrap_or(UNMEASURED * largest),
-        };
+        let largest = self.largest();
+        let limit = limit(self.tolerance.or(given), x, largest, self.rounding());
         // What is no more than the limit is no other number than 0.
         let x = if x.abs() <= limit { 0.0 } else { x };
         Digits::of(largest, Some(if largest > 0.0 { limit / largest } else { 0.0 })).write(x)
