@@ -8,6 +8,7 @@ use crate::audit::variants::{Penetration, apart};
 use engine::contact::pulling;
 use engine::estimates::moves;
 use engine::{Solution, distance, max_displacement, over};
+use output::layout::counted;
 use output::numbers::percent;
 use paper::door::Call;
 use problem::modelling::Variant;
@@ -21,10 +22,6 @@ const JUMPS: [(&str, f64, f64); 2] = [("below", 232.0, 215.0), ("above", 239.0, 
 
 /// Operations of the intersection over those of the sign rule, on the largest surfaces of the same table.
 const OPERATIONS: f64 = 4.60;
-
-fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome<Evidence> {
-    Ok(Evidence::new(verdict, number, detail))
-}
 
 fn true_if(is_true: bool) -> Verdict {
     if is_true { Verdict::True } else { Verdict::False }
@@ -40,9 +37,8 @@ pub(super) fn penetrates(case: &Case) -> Outcome<Evidence> {
     let pulling = pulling(&solution.contact, solution.model.load.amax());
     let verdict = true_if(relative < NOTICEABLE && pulling.is_empty());
     let pulls = match pulling.len() {
-        0 => "no node in contact pulls".to_string(),
-        1 => "1 node in contact pulls".into(),
-        n => format!("{n} nodes in contact pull"),
+        0 => "no node in contact pulls".into(),
+        n => counted(n, "node in contact pulls", "nodes in contact pull"),
     };
     let status = if in_contact { "in contact" } else { "not in contact" };
     let tolerance = solution.model.contact.tolerance;
@@ -89,7 +85,7 @@ pub(super) fn searches_current(case: &Case) -> Outcome<Evidence> {
         return Err("no node finds an edge".into());
     }
     let others = before.iter().zip(after.iter()).filter(|(before, after)| before != after).count();
-    measured(true_if(others == 0), others as f64, "lines 5 to 7 take node_n")
+    Ok(Evidence::new(true_if(others == 0), others as f64, "lines 5 to 7 take node_n"))
 }
 
 /// The share of the nodes in contact that the sign rule misses where the stamp jumped to twice c_tll.
@@ -98,13 +94,13 @@ pub(super) fn signs_go_wrong(_: &Case) -> Outcome<Evidence> {
     let samples = JUMPS.map(|(target, in_contact, missed)| {
         format!("target {target}: {missed} of {in_contact} missed")
     });
-    measured(true_if(below.max(above) < NOTICEABLE), below, samples.join(", "))
+    Ok(Evidence::new(true_if(below.max(above) < NOTICEABLE), below, samples.join(", ")))
 }
 
 /// Operations of the intersection over those of the sign rule.
 pub(super) fn fewer_operations(_: &Case) -> Outcome<Evidence> {
     let detail = "operations on 256 target edges, over those of `signs`";
-    measured(true_if(OPERATIONS > 1.0), OPERATIONS, detail)
+    Ok(Evidence::new(true_if(OPERATIONS > 1.0), OPERATIONS, detail))
 }
 
 /// The largest difference of a node's displacement between c_tll and a thousandth of it, over the largest
