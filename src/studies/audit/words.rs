@@ -37,12 +37,6 @@ const OURS: &str = "*: threshold or wording is this audit's. audit --claim P12 e
 /// What the runs of the table are.
 const RUNS: &str = "Runs of the paper's algorithm beside the equilibrium";
 
-/// Where the row of CalculiX is from.
-const OF_CALCULIX: &str = "CalculiX: a recorded run (guide calculix).";
-
-/// What the faults are, and what stands beside each.
-const FAULTS: &str = "Dearest faults, by their error in energy without friction";
-
 /// Where all faults stand.
 const ALL_FAULTS: &str = "All: table \"Each fault alone\".";
 
@@ -111,7 +105,7 @@ pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
     if audit.conclusion.coupled.is_none() {
         return sections;
     }
-    let recorded = is_example(&audit.scene).then(|| OF_CALCULIX.to_string());
+    let recorded = is_example(&audit.scene).then(|| "CalculiX: a recorded run (guide calculix).");
     let runs = Report::default().table(RUNS, runs(audit)).notes(recorded);
     let runs = runs.notes(mesh_error(audit));
     sections.push(Section::new("runs", None, runs));
@@ -392,7 +386,7 @@ fn faults(audit: &Audit) -> Section {
         Ok(costs) => Report::default().notes(costs.into_iter().take(DEAREST)).note(ALL_FAULTS),
         Err(why) => Report::default().note(why),
     };
-    Section::new("faults", FAULTS, said)
+    Section::new("faults", "Dearest faults, by their error in energy without friction", said)
 }
 
 /// Heads what the paper leaves open.

@@ -90,10 +90,7 @@ pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
     )
     .note(AND_FINDINGS)
     .notes(failures)
-    .notes(match unsound(prices) {
-        Some(why) => vec![format!("{why}: no fault is priced.")],
-        None => without_cost(prices),
-    });
+    .notes(unsound(prices).map_or_else(|| without_cost(prices), |why| vec![why]));
     if repairs.is_empty() {
         return report.line(format!(
             "audit {} --prices --repairs repairs the print one finding at a time.",
@@ -167,7 +164,7 @@ pub fn picture(repairs: &[Price]) -> String {
 pub fn by_cost(prices: &Outcome<Vec<Price>>) -> Result<Vec<String>, String> {
     let prices = prices.as_ref().map_err(not_measured)?;
     if let Some(why) = unsound(prices) {
-        return Err(format!("{why}: no fault is priced."));
+        return Err(why);
     }
     let of = |weight| prices.iter().filter(move |price| price.weight == weight);
     let mut shifts: Vec<&Price> = of(Weight::Shifts).collect();
@@ -196,29 +193,30 @@ fn not_measured(why: &NoFigures) -> String {
     format!("Not measured here: {}", first_line(&why.to_string()))
 }
 
-/// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the
-/// solution, or passes no load on, so that none can be lost. Nothing where they are.
+/// Says why no fault is priced: the corrected algorithm itself is not at the solution, or passes no load on, so
+/// that none can be lost. Nothing where the prices are the costs of the faults alone.
 pub fn unsound(prices: &[Price]) -> Option<String> {
+    let itself = |why: &str| {
+        let where_not = "plane-contact guide corrected says where it does not hold";
+        format!("The corrected algorithm itself {why} on this scene ({where_not})")
+    };
     let why = match &prices[0].outcome {
-        Err(NoFigures::Fails(_)) => "stops on this scene".into(),
-        Err(NoFigures::Rounding) => "is decided by rounding on this scene".into(),
+        Err(NoFigures::Fails(_)) => itself("stops"),
+        Err(NoFigures::Rounding) => itself("is decided by rounding"),
         Err(NoFigures::Refused(_)) => return None,
         Ok(run) if run.passes_nothing => {
-            return Some(
-                "Under the corrected algorithm too no load passes between the bodies".into(),
-            );
+            "Under the corrected algorithm too no load passes between the bodies".into()
         }
         Ok(run) if !run.energy_relative.is_finite() => {
-            return Some("Nothing moves in the solution of this scene".into());
+            "Nothing moves in the solution of this scene".into()
         }
-        Ok(run) if !run.is_settled() => "does not settle on this scene".into(),
+        Ok(run) if !run.is_settled() => itself("does not settle"),
         Ok(run) if run.error() > 0.0 => {
-            format!("is {} from the solution on this scene", percent(run.error()))
+            itself(&format!("is {} from the solution", percent(run.error())))
         }
         Ok(_) => return None,
     };
-    let where_not = "plane-contact guide corrected says where it does not hold";
-    Some(format!("The corrected algorithm itself {why} ({where_not})"))
+    Some(format!("{why}: no fault is priced."))
 }
 
 /// Returns the names of the faults that have a weight.
