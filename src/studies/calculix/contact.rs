@@ -83,7 +83,8 @@ impl Contact {
         let share = 1.0 / carried.len() as f64;
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
         for step in &solution.steps[carried] {
-            let equations = Equation::of_constraints(&solution.model, &step.constraints);
+            let of = |one| Equation::of_constraint(&solution.model, one);
+            let equations = step.constraints.iter().flat_map(of).collect();
             let same = states.iter().position(|(other, _)| *other == equations);
             let before = same.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
@@ -133,11 +134,6 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Returns the equations of constraints.
-    pub fn of_constraints(model: &Model, constraints: &[Constraint]) -> Vec<Equation> {
-        constraints.iter().flat_map(|one| Equation::of_constraint(model, one)).collect()
-    }
-
     /// The equations of a constraint: one along its normal, or one in each direction in which its
     /// node is not restrained.
     pub fn of_constraint(model: &Model, constraint: &Constraint) -> Vec<Equation> {

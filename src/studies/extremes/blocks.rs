@@ -32,6 +32,18 @@ pub struct Blocks {
     pub sliver: Option<f64>,
 }
 
+/// Coordinates x and y of the ten nodes, in lengths.
+const X: [f64; 10] = [0.0, 3.0, 3.0, 0.0, 1.6, 0.4, 1.3, 2.7, 2.5, 0.6];
+const Y: [f64; 10] = [0.0, 0.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.7, 3.7];
+
+/// Tags of the bodies' groups of triangles, then of the groups of edges.
+const BLOCK: usize = 1;
+const STAMP: usize = 2;
+const BOTTOM: usize = 10;
+const TARGET: usize = 11;
+const CONTACT: usize = 20;
+const TOP: usize = 21;
+
 impl Blocks {
     /// Blocks with nothing extreme.
     pub fn new() -> Self {
@@ -46,21 +58,7 @@ impl Blocks {
             sliver: None,
         }
     }
-}
 
-/// Coordinates x and y of the ten nodes, in lengths.
-const X: [f64; 10] = [0.0, 3.0, 3.0, 0.0, 1.6, 0.4, 1.3, 2.7, 2.5, 0.6];
-const Y: [f64; 10] = [0.0, 0.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.7, 3.7];
-
-/// Tags of the bodies' groups of triangles, then of the groups of edges.
-const BLOCK: usize = 1;
-const STAMP: usize = 2;
-const BOTTOM: usize = 10;
-const TARGET: usize = 11;
-const CONTACT: usize = 20;
-const TOP: usize = 21;
-
-impl Blocks {
     /// The scene on which `variant` runs. `printed` joins no bodies: the stamp is restrained at its
     /// top in both directions, and forces act at nodes 5 and 7.
     pub fn scene(&self, variant: Variant) -> SceneBuilder {

@@ -66,7 +66,7 @@ impl Search {
         let at = |p: [f64; 2], u: [f64; 2]| [0, 1].map(|d| T::from_f64(p[d]) + T::from_f64(u[d]));
         let [ua, ub, un] = self.moved;
         let (a, b, n) = (at(self.a, ua), at(self.b, ub), at(self.n, un));
-        let ([ex, ey], [rx, ry]) = (minus(b, a), minus(n, a));
+        let [[ex, ey], [rx, ry]] = [b, n].map(|[x, y]| [x - a[0], y - a[1]]);
         // The cross product over the edge length is the gap; over it once more, the gap in edge
         // lengths.
         (ry * ex - rx * ey) / (ex * ex + ey * ey)
@@ -92,10 +92,6 @@ impl Search {
             .restrain_node(6, both)
             .contact(Contact::new(vec![4], vec![1], self.c_tll))
     }
-}
-
-fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
-    [ax - bx, ay - by]
 }
 
 /// What is compared of a search.
