@@ -6,7 +6,7 @@ use plane_contact::engine::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::{Blocks, Hertz};
 
-use crate::common::fitted_hertz::over_hertz;
+use crate::common::fitted_hertz::{over_hertz, peak_pressure};
 use crate::common::page::{assert_table, markdown, percent};
 use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
 use crate::{cook, kirsch, lame, le1, punch, punch_patch};
@@ -48,7 +48,7 @@ fn patches() -> Vec<String> {
 fn pressures() -> Vec<String> {
     let hertz = Hertz::default();
     let [half_width, peak] = over_hertz(hertz.size, hertz.load, |_| ());
-    let [width, pressure] = [hertz.half_width(), hertz.peak_pressure()];
+    let [width, pressure] = [hertz.half_width(), peak_pressure(&hertz)];
     let punch = punch::punch(24);
     let load: f64 = punch.contact.iter().filter_map(|node| node.force).sum();
     let errors = punch.contact.iter().filter(|node| node.arc < 0.75).map(|node| {

@@ -58,11 +58,6 @@ impl Hertz {
         (4.0 * self.load * self.radius * compliance / PI).sqrt()
     }
 
-    /// Peak pressure by the closed form, stress.
-    pub fn peak_pressure(&self) -> f64 {
-        2.0 * self.load / (PI * self.half_width())
-    }
-
     /// Generates the scene.
     ///
     /// # Errors
