@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plane_contact::studies::snapshot::{Rounding, Snapshot, verify};
+use plane_contact::studies::snapshot::{Snapshot, verify};
 use plane_contact::{Error, Request, Scene, files};
 
 /// Verifies the snapshot of a scene; records it where there is none.
@@ -12,7 +12,7 @@ use plane_contact::{Error, Request, Scene, files};
 pub fn check(scene: &str, path: &Path) -> Result<bool, Error> {
     if !path.exists() {
         let scene = Scene::open(scene)?;
-        let snapshot = Snapshot::record(&scene, &[Request::new(&scene)], Rounding::Measured)?;
+        let snapshot = Snapshot::record(&scene, &[Request::new(&scene)])?;
         files::write(path, &snapshot.text())?;
     }
     let text = std::fs::read(path).expect("the snapshot was recorded");

@@ -7,7 +7,7 @@ use plane_contact::engine::{Detail, Request, Step, solve};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{GroupRef, Scene, SceneBuilder, Surface};
 use plane_contact::studies::snapshot::{
-    Entry, Quantity, Rounding, Snapshot, Values, VerifiedRun, difference, verify,
+    Entry, Quantity, Snapshot, Values, VerifiedRun, difference, verify,
 };
 
 /// A change of what goes into a run, and the place that is to be named.
@@ -124,7 +124,7 @@ fn a_hundred_seeded_changes_are_named() {
         let Some(change) = change(drawn % KINDS, scene, &mut rng) else { continue };
         let own = Request::new(scene).variant(change.request.variant);
         let record = |scene: &Scene, request: &Request| {
-            Snapshot::record(scene, std::slice::from_ref(request), Rounding::Measured)
+            Snapshot::record(scene, std::slice::from_ref(request))
         };
         let old = record(scene, &own).expect("it runs");
         // A changed scene whose matrix is singular to rounding is refused, and records nothing.
@@ -173,7 +173,7 @@ fn what_rounding_may_have_decided_is_said() {
     request.tolerance = Some(1e-6);
     let solver = Some(Solver::SparseLu);
     let other = request.clone().arithmetic(Arithmetic { solver, ..Arithmetic::default() });
-    let mut snapshot = Snapshot::record(&scene, &[other], Rounding::Measured).expect("it runs");
+    let mut snapshot = Snapshot::record(&scene, &[other]).expect("it runs");
     let (_, run) = snapshot.runs.iter().next().expect("a run");
     let mut run = run.clone();
     run.options.solver = None;
@@ -189,7 +189,7 @@ fn what_rounding_may_have_decided_is_said() {
 fn another_version_is_named_and_a_tampered_number_is_found() {
     let scene = Scene::open("two-blocks").expect("embedded");
     let request = Request::new(&scene).variant(Variant::Tied);
-    let mut snapshot = Snapshot::record(&scene, &[request], Rounding::Measured).expect("it runs");
+    let mut snapshot = Snapshot::record(&scene, &[request]).expect("it runs");
     let run = snapshot.runs.get_mut("tied").expect("it was recorded");
     let u = run.numbers.get_mut(&Entry::from(Quantity::U)).expect("it was recorded");
     let Values::Rows(rows) = &mut u.values else { panic!("rows") };

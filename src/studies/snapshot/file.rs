@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::Tolerance;
 use super::summary::{self, Summary};
-use super::{FORMAT, Input, Options, Quantity, Rounding, Run, VERSION, record};
+use super::{FORMAT, Input, Options, Quantity, Run, VERSION, record};
 use base::error::{InputError, Result};
 use base::files::{self, json};
 use base::plain::shown;
@@ -53,11 +53,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// The input is at fault, or two of the requests are the same.
-    pub fn record(
-        scene: &Scene,
-        requests: &[Request],
-        rounding: Rounding,
-    ) -> engine::error::Result<Self> {
+    pub fn record(scene: &Scene, requests: &[Request]) -> engine::error::Result<Self> {
         let mut names = HashSet::new();
         for request in requests {
             check(request)?;
@@ -67,8 +63,7 @@ impl Snapshot {
                 return Err(InputError::new("variant", what, "name it once").into());
             }
         }
-        let recorded: engine::error::Result<Vec<Run>> =
-            requests.par_iter().map(|request| record(request, rounding)).collect();
+        let recorded: engine::error::Result<Vec<Run>> = requests.par_iter().map(record).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         Ok(Snapshot::of_runs(scene, None, None, runs))
     }

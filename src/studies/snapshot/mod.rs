@@ -42,5 +42,5 @@ pub use file::Snapshot;
 pub use first_difference::{First, Status};
 pub use input::Input;
 pub use numbers::{Number, Numbers, Tolerance, UNMEASURED, Values};
-pub use run::{Decision, Rounding, Run, record};
+pub use run::{Decision, Run, record};
 pub use verified::{Presence, Verified, VerifiedRun, accept, difference, verify};

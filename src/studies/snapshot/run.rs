@@ -108,6 +108,16 @@ impl Run {
         Some(only.iter().chain(&entry::FACTS).map(|quantity| Entry::from(*quantity)).collect())
     }
 
+    /// Leaves out what was not recorded of an earlier run, and takes the tolerances that it gives.
+    pub(super) fn as_earlier(mut self, old: &Run) -> Self {
+        self.keep_only(old.only.clone());
+        self.tolerance = old.tolerance;
+        for (entry, numbers) in &mut self.numbers {
+            numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
+        }
+        self
+    }
+
     /// Leaves out the entries that `keeps` does not keep.
     pub(super) fn retain(&mut self, keeps: impl Fn(Entry) -> bool) {
         self.facts.retain(|entry, _| keeps(*entry));
@@ -160,37 +170,30 @@ impl Run {
     }
 }
 
-/// Whether it is measured what rounding does, which takes three more runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rounding {
-    /// It is.
-    Measured,
-    /// It is not.
-    LeftOut,
-}
-
 /// Runs a request and records what comes of it, which may be a failure of the published algorithm or
-/// that no equilibrium was found.
+/// that no equilibrium was found, and what rounding does to it, which takes three more runs.
 ///
 /// # Errors
 /// The input is at fault.
-pub fn record(request: &Request, rounding: Rounding) -> Result<Run> {
-    let mut run = run_of(request)?;
-    match rounding {
-        Rounding::LeftOut => (),
+pub fn record(request: &Request) -> Result<Run> {
+    let mut run = unmeasured(request)?;
+    if request.arithmetic.scalar.is_exact() {
         // Exact numbers are rounded where they are written alone.
-        Rounding::Measured if request.arithmetic.scalar.is_exact() => run.measure(&[run.clone()]),
-        Rounding::Measured => {
-            // A run that fails shows nothing of the numbers of this one.
-            let others = perturbed_requests(request);
-            let others = others.par_iter().filter_map(|request| run_of(request).ok());
-            run.measure(&others.collect::<Vec<Run>>());
-        }
+        run.measure(&[run.clone()]);
+    } else {
+        // A run that fails shows nothing of the numbers of this one.
+        let others = perturbed_requests(request);
+        let others = others.par_iter().filter_map(|request| unmeasured(request).ok());
+        run.measure(&others.collect::<Vec<Run>>());
     }
     Ok(run)
 }
 
-fn run_of(request: &Request) -> Result<Run> {
+/// Does the same, but for what rounding does.
+///
+/// # Errors
+/// The input is at fault.
+pub(super) fn unmeasured(request: &Request) -> Result<Run> {
     let model = request.model()?;
     let mut steps: Vec<Step> = Vec::new();
     let solved = solve(request, &mut |step| steps.push(step.clone()));

@@ -6,7 +6,8 @@ use super::changes::{Change, changes};
 use super::difference::first_iteration;
 use super::difference::{Difference, Sides, compare, side_by_side};
 use super::first_difference::{First, first};
-use super::{Entry, Input, Numbers, Quantity, Rounding, Run, Snapshot, record};
+use super::run::unmeasured;
+use super::{Entry, Input, Numbers, Quantity, Run, Snapshot, record};
 use base::choices;
 use engine::Request;
 use engine::error::Result;
@@ -165,7 +166,7 @@ pub fn verify(
 /// The snapshot or the scene is at fault.
 pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     let scene = scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?;
-    again(snapshot, &scene, |request, old| record_again(request, old, Rounding::Measured))
+    again(snapshot, &scene, |request, old| Ok(record(request)?.as_earlier(old)))
 }
 
 /// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what
@@ -183,26 +184,15 @@ fn again(
     Ok(Snapshot::of_runs(scene, snapshot.scene_file.clone(), snapshot.tolerance, runs))
 }
 
-/// Records of a request what was recorded of an earlier run, with the tolerances that it gives.
-fn record_again(request: &Request, old: &Run, rounding: Rounding) -> Result<Run> {
-    let mut run = record(request, rounding)?;
-    run.keep_only(old.only.clone());
-    run.tolerance = old.tolerance;
-    for (entry, numbers) in &mut run.numbers {
-        numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
-    }
-    Ok(run)
-}
-
 /// Records a run to be compared with an earlier one: of equal bits it need not be known what rounding does.
 fn run_to_compare(request: &Request, old: &Run) -> Result<Run> {
-    let run = record_again(request, old, Rounding::LeftOut)?;
+    let run = unmeasured(request)?.as_earlier(old);
     let has_bits = |(name, was): (&Entry, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     match compare(old, &run).0.is_empty() && old.numbers.iter().all(has_bits) {
         true => Ok(run),
-        false => record_again(request, old, Rounding::Measured),
+        false => Ok(record(request)?.as_earlier(old)),
     }
 }
 
@@ -221,7 +211,7 @@ fn decided_by_rounding(request: &Request, verified: &VerifiedRun) -> Result<Opti
         return Ok(None);
     }
     for request in perturbed_requests(request) {
-        let changed = record(&request, Rounding::LeftOut)?;
+        let changed = unmeasured(&request)?;
         if first_iteration(&compare(run, &changed).0).is_some_and(|other| other <= first) {
             return Ok(Some(first));
         }

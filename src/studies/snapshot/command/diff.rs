@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::snapshot::verified_file::{self as report, VerifiedFile};
-use crate::snapshot::{Options, Rounding, Snapshot, accept, difference};
+use crate::snapshot::{Options, Snapshot, accept, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
@@ -119,5 +119,5 @@ fn side(
         ..Options::default()
     };
     let request = options.request(&scene)?;
-    Snapshot::record(&scene, &[request], Rounding::Measured)
+    Snapshot::record(&scene, &[request])
 }

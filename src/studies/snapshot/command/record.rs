@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::snapshot::{Entry, FIELDS, Numbers, Quantity, Rounding, Snapshot, Tolerance};
+use crate::snapshot::{Entry, FIELDS, Numbers, Quantity, Snapshot, Tolerance};
 use base::error::InputError;
 use base::files;
 use base::plain::shown;
@@ -70,8 +70,7 @@ pub fn run(args: &Args) -> Result<()> {
         let requests =
             variants.into_iter().map(|variant| args.method.options(variant).request(&scene));
         let requests = requests.collect::<Result<Vec<_>, _>>()?;
-        let mut snapshot =
-            waiting("recording", || Snapshot::record(&scene, &requests, Rounding::Measured))?;
+        let mut snapshot = waiting("recording", || Snapshot::record(&scene, &requests))?;
         snapshot.keep_only(&args.only);
         snapshot.tolerance = args.tolerance;
         let mut snapshot = snapshot.summarised(&scene);
