@@ -69,7 +69,7 @@ pub fn flat<T: Serialize, S: Serializer>(
 }
 
 /// A verdict, the number that it names, and what else is to be said.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence<V> {
     /// The verdict.
     pub verdict: V,
@@ -99,18 +99,10 @@ pub struct MeshError {
     pub energy_relative: Option<f64>,
 }
 
-impl<V> Evidence<V> {
+impl<V: Default> Evidence<V> {
     /// Collects what was found.
     pub fn new(verdict: V, number: impl Into<Option<f64>>, detail: impl Into<String>) -> Self {
-        Evidence {
-            verdict,
-            number: number.into(),
-            by_rounding: false,
-            range: None,
-            variant: None,
-            detail: detail.into(),
-            mesh_errors: Vec::new(),
-        }
+        Evidence { verdict, number: number.into(), detail: detail.into(), ..Evidence::default() }
     }
 
     /// Adds the errors of the mesh in the runs that were measured.

@@ -17,7 +17,7 @@ use problem::element;
 use problem::modelling::Variant;
 
 /// What another value of a reading changes on a scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,
@@ -134,16 +134,10 @@ impl Effect {
             id: row.id,
             reading: row.label(value),
             lines: row.lines,
-            statuses: None,
-            entries: None,
-            displacement: None,
-            equilibrium_error: None,
             size: run.map_or(1.0, |run| max_displacement(&run.u)),
             variant,
-            apart: false,
-            unsettled: false,
             of,
-            failure: None,
+            ..Effect::default()
         };
         let outcome = effect.measure(row.trial, value.change, reading, case, as_read);
         effect.failure = outcome.err();

@@ -24,7 +24,7 @@ use problem::modelling::Variant;
 const DENSE: usize = 400;
 
 /// A run: what it was asked for and what came of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
     /// What was asked for in place of what the scene says.
@@ -58,18 +58,6 @@ pub struct Decision {
 }
 
 impl Run {
-    fn new(options: Options) -> Self {
-        let (facts, numbers) = (IndexMap::new(), IndexMap::new());
-        Run {
-            options,
-            only: None,
-            tolerance: None,
-            facts,
-            numbers,
-            decided_by_rounding: Vec::new(),
-        }
-    }
-
     fn fact_is(&mut self, of: impl Into<Entry>, fact: impl Serialize) {
         self.facts.insert(of.into(), json!(fact));
     }
@@ -197,7 +185,7 @@ pub(super) fn unmeasured(request: &Request) -> Result<Run> {
     let model = request.model()?;
     let mut steps: Vec<Step> = Vec::new();
     let solved = solve(request, &mut |step| steps.push(step.clone()));
-    let mut run = Run::new(Options::from_request(request));
+    let mut run = Run { options: Options::from_request(request), ..Run::default() };
     let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
     // A solution may leave out steps that were taken back.

@@ -39,7 +39,7 @@ choices! {
 }
 
 /// What came of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct VerifiedRun {
     /// The name of the run.
     pub name: String,
@@ -75,10 +75,7 @@ impl VerifiedRun {
 
     /// Makes a run that one side alone has.
     fn alone(name: &str, presence: Presence, run: &Run) -> Self {
-        let (name, run) = (name.into(), run.clone());
-        let (differences, changes) = (Vec::new(), Vec::new());
-        let (compared, path, first) = (0, None, None);
-        VerifiedRun { name, presence, run, differences, compared, path, changes, first }
+        VerifiedRun { name: name.into(), presence, run: run.clone(), ..VerifiedRun::default() }
     }
 
     /// Compares two runs, each of a snapshot.
