@@ -105,7 +105,7 @@ pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
     if audit.conclusion.coupled.is_none() {
         return sections;
     }
-    let recorded = is_example(&audit.scene).then(|| "CalculiX: a recorded run (guide calculix).");
+    let recorded = is_example(&audit.scene).then_some("CalculiX: a recorded run (guide calculix).");
     let runs = Report::default().table(RUNS, runs(audit)).notes(recorded);
     let runs = runs.notes(mesh_error(audit));
     sections.push(Section::new("runs", None, runs));

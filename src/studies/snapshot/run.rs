@@ -97,7 +97,7 @@ impl Run {
     }
 
     /// Leaves out what was not recorded of an earlier run, and takes the tolerances that it gives.
-    pub(super) fn as_earlier(mut self, old: &Run) -> Self {
+    pub(super) fn recorded_as(mut self, old: &Run) -> Self {
         self.keep_only(old.only.clone());
         self.tolerance = old.tolerance;
         for (entry, numbers) in &mut self.numbers {

@@ -163,7 +163,7 @@ pub fn verify(
 /// The snapshot or the scene is at fault.
 pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     let scene = scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?;
-    again(snapshot, &scene, |request, old| Ok(record(request)?.as_earlier(old)))
+    again(snapshot, &scene, |request, old| Ok(record(request)?.recorded_as(old)))
 }
 
 /// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what
@@ -183,13 +183,13 @@ fn again(
 
 /// Records a run to be compared with an earlier one: of equal bits it need not be known what rounding does.
 fn run_to_compare(request: &Request, old: &Run) -> Result<Run> {
-    let run = unmeasured(request)?.as_earlier(old);
+    let run = unmeasured(request)?.recorded_as(old);
     let has_bits = |(name, was): (&Entry, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     match compare(old, &run).0.is_empty() && old.numbers.iter().all(has_bits) {
         true => Ok(run),
-        false => Ok(record(request)?.as_earlier(old)),
+        false => Ok(record(request)?.recorded_as(old)),
     }
 }
 
