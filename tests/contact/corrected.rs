@@ -8,7 +8,7 @@ use crate::common::tolerances::{CORRECTED, assert_near};
 use nalgebra::DVector;
 use plane_contact::engine::contact::Surfaces;
 use plane_contact::engine::{Request, Stiffness, solve};
-use plane_contact::paper::corrected::{Bound, FAULTS, Fault, iterate};
+use plane_contact::paper::corrected::{Bound, FAULTS, Fault, Worksheet};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Dof, Model, NodeId};
@@ -93,7 +93,7 @@ fn it_is_the_reference_on_hertz_with_a_thousand_equations() {
 /// and the forces of contact, closed gaps, pressure, and no penetration. With the contact set these
 /// determine the displacements.
 fn assert_conditions(what: &str, model: &Model) {
-    let ending = iterate(model, Bound::Both, &[], STEPS).expect(what);
+    let ending = Worksheet::new(model, Bound::Both).iterate(&[], STEPS).expect(what);
     assert!(ending.is_settled, "{what}");
     let u = DVector::from_vec(ending.u);
     let of = |node: NodeId| [u[2 * node.index()], u[2 * node.index() + 1]];
@@ -200,9 +200,9 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
 fn pairs_that_come_back_end_the_iterations() {
     let k2 = FAULTS.iter().find(|fault| fault.finding == FindingId::K2).expect("a fault").edit;
     let model = &Scene::open("strand").unwrap().model;
-    let ending = iterate(model, Bound::Normal, &[k2], STEPS).expect("a result");
+    let ending = Worksheet::new(model, Bound::Normal).iterate(&[k2], STEPS).expect("a result");
     assert_eq!((ending.iterations, ending.period, ending.is_settled), (7, Some(2), false));
-    let one_less = iterate(model, Bound::Normal, &[k2], 6).expect("a result");
+    let one_less = Worksheet::new(model, Bound::Normal).iterate(&[k2], 6).expect("a result");
     assert_eq!((one_less.iterations, one_less.period), (6, None));
     assert_ne!(one_less.u, ending.u);
 }
