@@ -65,7 +65,8 @@ fn prices_of(case: &Case) -> (Vec<Price>, Vec<Price>) {
 
 fn assert_is_reference(what: &str, scene: &Scene) {
     let request = reference(scene);
-    let ending = iterate(&request.model().unwrap(), Bound::Normal, &[], STEPS).expect(what);
+    let ending =
+        Worksheet::new(&request.model().unwrap(), Bound::Normal).iterate(&[], STEPS).expect(what);
     assert!(ending.is_settled, "{what}");
     let theirs = solve(&request, &mut |_| ()).expect(what);
     let difference = (DVector::from_vec(ending.u) - &theirs.u).amax();
@@ -147,7 +148,8 @@ fn with_all_faults_it_is_the_print() {
     let edits: Vec<&str> = FAULTS.iter().map(|fault| fault.edit).collect();
     for name in ["strand", "fig1", "two-blocks"] {
         let scene = Scene::open(name).unwrap();
-        let ending = iterate(&scene.model, Bound::Normal, &edits, STEPS).expect(name);
+        let ending =
+            Worksheet::new(&scene.model, Bound::Normal).iterate(&edits, STEPS).expect(name);
         let printed = Request::new(&scene).variant(Variant::Printed);
         let printed = solve(&printed, &mut |_| ()).expect(name);
         assert!(printed.transmits_nothing() && ending.is_settled, "{name}");
@@ -172,7 +174,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
     let error = |put_back: &dyn Fn(&Fault) -> bool| {
         let faults = FAULTS.iter().filter(|fault| put_back(fault));
         let edits: Vec<&str> = faults.map(|fault| fault.edit).collect();
-        let ending = iterate(&exact.model, Bound::Normal, &edits, STEPS).ok();
+        let ending = Worksheet::new(&exact.model, Bound::Normal).iterate(&edits, STEPS).ok();
         let u = ending.map(|ending| DVector::from_vec(ending.u)).filter(|u| u.amax() <= size);
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
@@ -215,7 +217,7 @@ fn a_hinge_is_not_answered_silently() {
     for drawn in hinged {
         let builder = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
         let scene = builder.build().unwrap();
-        let ending = iterate(&scene.model, Bound::Normal, &[], STEPS);
+        let ending = Worksheet::new(&scene.model, Bound::Normal).iterate(&[], STEPS);
         let size = scene.model.bounds().larger_side();
         match ending {
             Ok(ending) if ending.is_settled => {
