@@ -193,7 +193,7 @@ impl SceneArgs {
 }
 
 /// The most bytes of a file of listings; the paper's two have 5,000.
-pub const LARGEST_LISTING: u64 = 1 << 24;
+const LARGEST_LISTING: u64 = 1 << 24;
 
 /// Reads a file of listings.
 ///

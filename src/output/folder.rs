@@ -8,7 +8,7 @@ use serde_json::json;
 use super::json::document;
 use super::model::Report;
 use super::page::{Page, TABLE};
-use super::picture::{self, Drawing, Field};
+use super::picture::{self, Drawing};
 use super::quantities::triangle_array;
 use super::result_file::ResultFile;
 use super::{pressure, tables, vtu};
@@ -117,13 +117,8 @@ fn contents(
             File::Mesh => picture::mesh(drawing).into_bytes(),
             File::Picture(quantity) => {
                 let array = triangle_array(quantity, &triangles, &scene.units)?;
-                let field = Field {
-                    quantity: quantity.title,
-                    unit: &array.unit,
-                    values: &array.values,
-                    displacement: &solution.displacements(),
-                };
-                picture::field(drawing, &field).into_bytes()
+                let (title, moved) = (quantity.title, solution.displacements());
+                picture::field(drawing, title, &array.unit, &array.values, &moved).into_bytes()
             }
             File::Pressure if solution.contact.is_empty() => return None,
             File::Pressure => pressures(solution, assessment).into_bytes(),

@@ -11,47 +11,38 @@ use base::plain::controls_a_terminal;
 use paper::door::Call;
 use problem::scene::{Scene, Units};
 
-/// What a document says of itself.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Head {
+/// A document that a command prints or writes: what it says of itself, and its own value.
+#[derive(Serialize)]
+struct Document<'a, Own> {
     /// The version of the format.
-    pub format: u32,
+    format: u32,
     /// The version of the program.
-    pub version: &'static str,
+    version: &'static str,
     /// The names of the units of the scene that it is on, each empty where the scene names none; absent
     /// without one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub units: Option<Units>,
+    units: Option<&'a Units>,
     /// The SHA-256 of the scene, as a snapshot has it; absent for half a scene, which no file describes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub scene_sha256: Option<String>,
+    scene_sha256: Option<&'a str>,
     /// The SHA-256 of its mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_sha256: Option<String>,
+    mesh_sha256: Option<&'a str>,
+    #[serde(flatten)]
+    own: &'a Own,
 }
 
-impl Head {
-    /// Returns what a document says of itself, and of the scene that it is on.
-    pub fn new(scene: Option<&Scene>) -> Self {
-        let hashes = scene.map(Scene::hashes).cloned();
-        let [scene_sha256, mesh_sha256] = hashes.map_or([None, None], |hashes| hashes.map(Some));
-        let units = scene.map(|scene| scene.units.clone());
-        Head { format: FORMAT, version: VERSION, units, scene_sha256, mesh_sha256 }
+impl<'a, Own> Document<'a, Own> {
+    fn new(scene: Option<&'a Scene>, own: &'a Own) -> Self {
+        let [scene_sha256, mesh_sha256] = [0, 1].map(|k| scene.map(|of| &*of.hashes()[k]));
+        let units = scene.map(|scene| &scene.units);
+        Document { format: FORMAT, version: VERSION, units, scene_sha256, mesh_sha256, own }
     }
-}
-
-/// A document that a command prints or writes: what it says of itself, and its own value.
-#[derive(Serialize)]
-struct Document<Own> {
-    #[serde(flatten)]
-    head: Head,
-    #[serde(flatten)]
-    own: Own,
 }
 
 /// Returns a document around a command's own value, with the scene that it is on, and why fields are null.
 pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
-    let mut document = value(&Document { head: Head::new(scene), own });
+    let mut document = value(&Document::new(scene, own));
     let mut nulls = BTreeMap::new();
     explain(&document, "", &mut nulls);
     if !nulls.is_empty() {
@@ -68,8 +59,8 @@ pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
 /// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than
 /// its digits.
 pub fn streamed(own: &impl Serialize) -> String {
-    let document = Document { head: Head::new(None), own };
-    visible(serde_json::to_string(&document).expect("a document has string keys only")) + "\n"
+    let document = serde_json::to_string(&Document::new(None, own));
+    visible(document.expect("a document has string keys only")) + "\n"
 }
 
 /// Returns JSON with escapes for characters of its texts that control a terminal.
@@ -167,12 +158,11 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
 /// edge (0 = none), the vertical distance from its target line, length, and whether it is in contact, 1 or 0;
 /// by node mate, weight, mate, weight.
 pub fn found(Call { sheet, pairs, .. }: &Call) -> Value {
-    let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
     json!({
         "cnt": sheet.cnt.as_slice(),
         "ct": pairs.ct.as_slice(),
         "yt": pairs.yt.as_slice(),
         "dy": pairs.dy.as_slice(),
-        "k_cnt": (1..=pairs.k_cnt.rows()).map(row).collect::<Vec<_>>(),
+        "k_cnt": (1..=pairs.k_cnt.rows()).map(|node| pairs.row(node)).collect::<Vec<_>>(),
     })
 }

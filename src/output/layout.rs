@@ -17,26 +17,18 @@ pub fn first_line(text: &str) -> &str {
     text.lines().next().unwrap_or_default()
 }
 
-/// Fills lines of at most `width` characters with items, one behind the other: the first line begins
-/// with `start`, the others with `hang` blanks. An item longer than a line has one of its own.
-pub fn filled(
-    start: &str,
-    hang: usize,
-    width: usize,
-    items: impl IntoIterator<Item = impl Display>,
-    separator: &str,
-) -> String {
+/// Fills lines of at most `width` characters with words: the first line begins with `start`, the others with `hang`
+/// blanks. A word longer than a line has one of its own.
+pub fn filled(start: &str, hang: usize, width: usize, words: &str) -> String {
     let (mut text, mut line) = (String::new(), start.to_string());
-    for (k, item) in items.into_iter().enumerate() {
-        let item = item.to_string();
-        let length = [&line, separator, &item, separator.trim_end()].map(|s| s.chars().count());
-        if k > 0 && length.iter().sum::<usize>() > width {
-            text += &format!("{}\n", (line + separator).trim_end());
+    for (k, word) in words.split(' ').enumerate() {
+        if k > 0 && line.chars().count() + 1 + word.chars().count() > width {
+            text += &format!("{}\n", line.trim_end());
             line = " ".repeat(hang);
         } else if k > 0 {
-            line += separator;
+            line += " ";
         }
-        line += &item;
+        line += word;
     }
     text + &line + "\n"
 }

@@ -69,7 +69,7 @@ fn prose(line: &str, width: usize) -> String {
     }
     let words = line.trim_start();
     let blanks = line.len() - words.len();
-    filled(&" ".repeat(blanks), blanks + 2, width, words.split(' '), " ")
+    filled(&" ".repeat(blanks), blanks + 2, width, words)
 }
 
 /// Breaks a line within its words where it is longer than `width`, after a slash where there is one.
@@ -122,7 +122,7 @@ impl Table {
             .find(|widths| widths.iter().map(|width| width + 2).sum::<usize>() <= width)?;
         let broken = |cells: &Vec<String>| -> Vec<Vec<String>> {
             let lines = |(cell, width): (&String, &usize)| -> Vec<String> {
-                let text = filled("", 0, *width, cell.split(' '), " ");
+                let text = filled("", 0, *width, cell);
                 text.lines().map(String::from).collect()
             };
             cells.iter().zip(&widths).map(lines).collect()
@@ -160,13 +160,13 @@ impl Table {
             let mut text = String::new();
             for row in rows {
                 let first = format!("{} {}", self.headings[0], row[0]);
-                text += &filled("  ", 4, width, first.trim().split(' '), " ");
+                text += &filled("  ", 4, width, first.trim());
                 let cells = self.headings.iter().zip(row).skip(1);
                 for (heading, cell) in cells.filter(|(_, cell)| !cell.is_empty()) {
                     text += &if beside {
                         let blanks = " ".repeat(headings - length(heading));
                         let start = format!("    {heading}{blanks}  ");
-                        filled(&start, headings + 6, width, cell.split(' '), " ")
+                        filled(&start, headings + 6, width, cell)
                     } else {
                         let words = format!("{heading}: {cell}");
                         prose(&format!("    {}", words.trim_start_matches(": ")), width)

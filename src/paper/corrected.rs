@@ -44,11 +44,6 @@ impl Program {
             Program::Iterate => include_str!("listings/corrected/iterate.txt"),
         }
     }
-
-    /// Returns the program, read.
-    pub fn listing(self) -> Listing {
-        Listing::parse(self.name(), self.text()).expect("the text of record is sound")
-    }
 }
 
 choices! {
@@ -84,47 +79,39 @@ pub struct Fault {
     pub edit: &'static str,
 }
 
+/// A fault: the finding and the file of the edit, the other findings, the part.
+macro_rules! fault {
+    ($finding:ident $file:literal, [$($other:ident),*], $part:expr) => {
+        Fault {
+            finding: FindingId::$finding,
+            others: &[$(FindingId::$other),*],
+            part: $part,
+            edit: include_str!(concat!("listings/corrected/faults/", $file, ".edit")),
+        }
+    };
+}
+
 /// The faults that can be reintroduced: one at a time, or several, applied from the last to the first. C1
 /// and C2 make the box of C9 their own. With all of them the programs are the print, but that edges are
 /// of the initial shape (C6).
 pub const FAULTS: &[Fault] = &[
-    Fault {
-        others: &[FindingId::C14],
-        ..Fault::new(FindingId::C1, include_str!("listings/corrected/faults/C1.edit"))
-    },
-    Fault::new(FindingId::C2, include_str!("listings/corrected/faults/C2.edit")),
-    Fault::new(FindingId::C3, include_str!("listings/corrected/faults/C3.edit")),
-    Fault {
-        others: &[FindingId::C4],
-        ..Fault::new(FindingId::C5, include_str!("listings/corrected/faults/C5.edit"))
-    },
-    Fault {
-        others: &[FindingId::C13],
-        ..Fault::new(FindingId::C7, include_str!("listings/corrected/faults/C7.edit"))
-    },
-    Fault::new(FindingId::C9, include_str!("listings/corrected/faults/C9.edit")),
-    Fault::new(FindingId::C12, include_str!("listings/corrected/faults/C12.edit")),
-    Fault::new(FindingId::K1, include_str!("listings/corrected/faults/K1.edit")),
-    Fault::new(FindingId::K2, include_str!("listings/corrected/faults/K2.edit")),
-    Fault::new(FindingId::K4, include_str!("listings/corrected/faults/K4.edit")),
-    Fault::new(FindingId::K5, include_str!("listings/corrected/faults/K5.edit")),
-    Fault::new(FindingId::K8, include_str!("listings/corrected/faults/K8.edit")),
-    Fault {
-        part: Some(Part::Release),
-        ..Fault::new(FindingId::K9, include_str!("listings/corrected/faults/K9.edit"))
-    },
-    Fault {
-        part: Some(Part::Sliding),
-        ..Fault::new(FindingId::K9, include_str!("listings/corrected/faults/K9-both.edit"))
-    },
+    fault!(C1 "C1", [C14], None),
+    fault!(C2 "C2", [], None),
+    fault!(C3 "C3", [], None),
+    fault!(C5 "C5", [C4], None),
+    fault!(C7 "C7", [C13], None),
+    fault!(C9 "C9", [], None),
+    fault!(C12 "C12", [], None),
+    fault!(K1 "K1", [], None),
+    fault!(K2 "K2", [], None),
+    fault!(K4 "K4", [], None),
+    fault!(K5 "K5", [], None),
+    fault!(K8 "K8", [], None),
+    fault!(K9 "K9", [], Some(Part::Release)),
+    fault!(K9 "K9-both", [], Some(Part::Sliding)),
 ];
 
 impl Fault {
-    /// The only fault of a finding.
-    const fn new(finding: FindingId, edit: &'static str) -> Self {
-        Fault { finding, others: &[], part: None, edit }
-    }
-
     /// Returns its name: the findings that describe it, and which fault of one it is.
     pub fn name(&self) -> String {
         let mut findings = [&[self.finding], self.others].concat();
@@ -202,20 +189,6 @@ pub fn check(model: &Model) -> Result<(), InputError> {
         }
         None => Ok(()),
     }
-}
-
-/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model:
-/// [`Worksheet::iterate`].
-///
-/// # Errors
-/// A program fails.
-pub fn iterate(
-    model: &Model,
-    bound: Bound,
-    edits: &[&str],
-    steps: usize,
-) -> Result<Ending, Box<Failure>> {
-    Worksheet::new(model, bound).iterate(edits, steps)
 }
 
 /// Lines of a program that read nothing which iterations change: their value is computed once.

@@ -20,7 +20,7 @@ use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use numbers::square::SparseSquare;
 use problem::element;
-use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
+use problem::model::{EdgeId, Element, Model, NodeId, TriangleId};
 use problem::units::length_in_metres;
 
 /// The column of `EL` and `elem` where the nodes start.
@@ -84,7 +84,8 @@ pub fn check_restraints(model: &Model) -> Result<(), InputError> {
 /// computed from the coordinates in T.
 pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {
     let elem = elem(model);
-    let triangles: Vec<usize> = model.rows.iter().filter_map(triangle_number).collect();
+    let triangles = model.rows.iter().filter(|row| matches!(row.element, Element::Triangle(_)));
+    let triangles: Vec<usize> = triangles.map(|row| row.number).collect();
     let thickness = number(model.thickness);
     let corners: Vec<element::Corners<T>> =
         model.triangle_ids().map(|id| model.corners(id).map(|p| p.map(&number))).collect();
@@ -127,11 +128,6 @@ fn elem(model: &Model) -> Table<usize> {
         }
     }
     elem
-}
-
-/// Returns the number of a row that is a triangle; None for any other row.
-fn triangle_number(row: &Row) -> Option<usize> {
-    matches!(row.element, Element::Triangle(_)).then_some(row.number)
 }
 
 /// Returns the node table of a shape, the coordinates of each node: number, x, y, z; R x 4.

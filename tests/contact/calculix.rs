@@ -11,7 +11,7 @@ use crate::scenes::FOLDER;
 use crate::unilateral::models;
 use nalgebra::DVector;
 use plane_contact::engine::{self, Request, Solution};
-use plane_contact::paper::corrected::{Bound, STEPS, iterate};
+use plane_contact::paper::corrected::{Bound, STEPS, Worksheet};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{Contact, Pair, Part, deck, float, parse, run};
@@ -239,7 +239,7 @@ fn ccx_finds_what_the_corrected_algorithm_finds() {
     }
     let scene = Scene::open("strand").unwrap();
     for (bound, friction) in [(Bound::Normal, Friction::NONE), (Bound::Both, Friction::STICK)] {
-        let own = iterate(&scene.model, bound, &[], STEPS).unwrap().u;
+        let own = Worksheet::new(&scene.model, bound).iterate(&[], STEPS).unwrap().u;
         let pair = Pair::new(&scene.model, None, friction);
         let theirs = run("ccx", &scene.title, &scene.model, &[pair.into()]).unwrap().u;
         let difference = own.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -8,7 +8,7 @@ use crate::common::tolerances::{CORRECTED, assert_near};
 use nalgebra::DVector;
 use plane_contact::engine::contact::Surfaces;
 use plane_contact::engine::{Request, Stiffness, solve};
-use plane_contact::paper::corrected::{Bound, FAULTS, Fault, iterate};
+use plane_contact::paper::corrected::{Bound, FAULTS, Fault, Worksheet};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Dof, Model, NodeId};
@@ -65,7 +65,8 @@ fn prices_of(case: &Case) -> (Vec<Price>, Vec<Price>) {
 
 fn assert_is_reference(what: &str, scene: &Scene) {
     let request = reference(scene);
-    let ending = iterate(&request.model().unwrap(), Bound::Normal, &[], STEPS).expect(what);
+    let ending =
+        Worksheet::new(&request.model().unwrap(), Bound::Normal).iterate(&[], STEPS).expect(what);
     assert!(ending.is_settled, "{what}");
     let theirs = solve(&request, &mut |_| ()).expect(what);
     let difference = (DVector::from_vec(ending.u) - &theirs.u).amax();
@@ -93,7 +94,7 @@ fn it_is_the_reference_on_hertz_with_a_thousand_equations() {
 /// and the forces of contact, closed gaps, pressure, and no penetration. With the contact set these
 /// determine the displacements.
 fn assert_conditions(what: &str, model: &Model) {
-    let ending = iterate(model, Bound::Both, &[], STEPS).expect(what);
+    let ending = Worksheet::new(model, Bound::Both).iterate(&[], STEPS).expect(what);
     assert!(ending.is_settled, "{what}");
     let u = DVector::from_vec(ending.u);
     let of = |node: NodeId| [u[2 * node.index()], u[2 * node.index() + 1]];
@@ -147,7 +148,8 @@ fn with_all_faults_it_is_the_print() {
     let edits: Vec<&str> = FAULTS.iter().map(|fault| fault.edit).collect();
     for name in ["strand", "fig1", "two-blocks"] {
         let scene = Scene::open(name).unwrap();
-        let ending = iterate(&scene.model, Bound::Normal, &edits, STEPS).expect(name);
+        let ending =
+            Worksheet::new(&scene.model, Bound::Normal).iterate(&edits, STEPS).expect(name);
         let printed = Request::new(&scene).variant(Variant::Printed);
         let printed = solve(&printed, &mut |_| ()).expect(name);
         assert!(printed.transmits_nothing() && ending.is_settled, "{name}");
@@ -172,7 +174,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
     let error = |put_back: &dyn Fn(&Fault) -> bool| {
         let faults = FAULTS.iter().filter(|fault| put_back(fault));
         let edits: Vec<&str> = faults.map(|fault| fault.edit).collect();
-        let ending = iterate(&exact.model, Bound::Normal, &edits, STEPS).ok();
+        let ending = Worksheet::new(&exact.model, Bound::Normal).iterate(&edits, STEPS).ok();
         let u = ending.map(|ending| DVector::from_vec(ending.u)).filter(|u| u.amax() <= size);
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
@@ -200,9 +202,9 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
 fn pairs_that_come_back_end_the_iterations() {
     let k2 = FAULTS.iter().find(|fault| fault.finding == FindingId::K2).expect("a fault").edit;
     let model = &Scene::open("strand").unwrap().model;
-    let ending = iterate(model, Bound::Normal, &[k2], STEPS).expect("a result");
+    let ending = Worksheet::new(model, Bound::Normal).iterate(&[k2], STEPS).expect("a result");
     assert_eq!((ending.iterations, ending.period, ending.is_settled), (7, Some(2), false));
-    let one_less = iterate(model, Bound::Normal, &[k2], 6).expect("a result");
+    let one_less = Worksheet::new(model, Bound::Normal).iterate(&[k2], 6).expect("a result");
     assert_eq!((one_less.iterations, one_less.period), (6, None));
     assert_ne!(one_less.u, ending.u);
 }
@@ -215,7 +217,7 @@ fn a_hinge_is_not_answered_silently() {
     for drawn in hinged {
         let builder = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
         let scene = builder.build().unwrap();
-        let ending = iterate(&scene.model, Bound::Normal, &[], STEPS);
+        let ending = Worksheet::new(&scene.model, Bound::Normal).iterate(&[], STEPS);
         let size = scene.model.bounds().larger_side();
         match ending {
             Ok(ending) if ending.is_settled => {

@@ -10,7 +10,7 @@ use plane_contact::engine::estimates::{Perturbed, When, perturbed};
 use plane_contact::engine::{Request, Solution, Step, solve};
 use plane_contact::mathcad::{Settings, unsupported};
 use plane_contact::output::page::INTERPRETER;
-use plane_contact::paper::corrected::{Bound, Program, STEPS, iterate, program};
+use plane_contact::paper::corrected::{Bound, Program, STEPS, Worksheet, program};
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Geometry, StatusRule, Variant};
@@ -102,7 +102,7 @@ fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
 /// The engine's iterations of the corrected programs, with faults put back.
 fn corrected(scene: &Scene, edits: &[&str]) -> Vec<State> {
     let after = |steps: usize| {
-        let ending = iterate(&scene.model, Bound::Normal, edits, steps).ok()?;
+        let ending = Worksheet::new(&scene.model, Bound::Normal).iterate(edits, steps).ok()?;
         let nodes = ending.in_contact.into_iter().map(|(node, _)| node).collect();
         (ending.iterations == steps).then(|| (nodes, DVector::from_vec(ending.u)))
     };

@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use plane_contact::output::picture::{
-    Axis, Contact, Drawing, Field, MOST_SHAPES, Series, Style, chart, field, mesh,
+    Axis, Contact, Drawing, MOST_SHAPES, Series, Style, chart, field, mesh,
 };
 use roxmltree::Document;
 
@@ -28,8 +28,8 @@ fn touching(nodes: &[usize], edge: [usize; 2]) -> Drawing {
     Drawing { contact: Some(contact), ..square() }
 }
 
-fn stress<'a>(values: &'a [f64], displacement: &'a [[f64; 2]]) -> Field<'a> {
-    Field { quantity: "stress", unit: "MPa", values, displacement }
+fn stress(drawing: &Drawing, values: &[f64], displacement: &[[f64; 2]]) -> String {
+    field(drawing, "stress", "MPa", values, displacement)
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn extreme_numbers() {
     for (unit, size) in [(1e300, 1e300), (1e300, 1e-300), (1e-300, 1e300), (1e-300, 1e-300)] {
         let points = SQUARE.map(|point| point.map(|x| x / 10.0 * unit)).to_vec();
         let drawing = Drawing { points, ..square() };
-        let picture = field(&drawing, &stress(&[-size, size], &[[size, size]; 4]));
+        let picture = stress(&drawing, &[-size, size], &[[size, size]; 4]);
         assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
         let corners = attributes(&picture, "polygon", "points").join(" ");
         let places = corners.split([' ', ',']).map(|x| x.parse::<f64>().unwrap());
@@ -75,7 +75,7 @@ fn extreme_numbers() {
 #[test]
 #[should_panic(expected = "finite numbers")]
 fn infinite_value_is_refused() {
-    field(&square(), &stress(&[1.0, f64::INFINITY], &[[0.0; 2]; 4]));
+    stress(&square(), &[1.0, f64::INFINITY], &[[0.0; 2]; 4]);
 }
 
 fn drawn(logarithmic: bool, points: Vec<[f64; 2]>) -> String {
@@ -158,7 +158,7 @@ fn pixels_of_a_field_have_the_colours_of_the_bar() {
     let drawing = grid(150);
     let values: Vec<f64> = drawing.region.iter().map(|&region| region as f64).collect();
     let still = vec![[0.0; 2]; drawing.points.len()];
-    let picture = field(&drawing, &stress(&values, &still));
+    let picture = stress(&drawing, &values, &still);
     let near = |at: Option<[u8; 3]>, expected: [u8; 3]| {
         at.unwrap().into_iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 3)
     };
@@ -173,6 +173,6 @@ fn a_picture_of_noise_is_below_two_megabytes() {
     let values: Vec<f64> =
         (0..drawing.triangles.len() as u64).map(|k| (k * k % 1009) as f64).collect();
     let still = vec![[0.0; 2]; drawing.points.len()];
-    let size = field(&drawing, &stress(&values, &still)).len();
+    let size = stress(&drawing, &values, &still).len();
     assert!(size < 2_000_000, "{size}");
 }

@@ -1,15 +1,15 @@
 //! Numbers as reports print them: round ones, ticks, significant digits, values with their errors.
 
 use plane_contact::output::numbers::{
-    Decimal, common_exponent, figure, percent, shifted, significant, ticks,
+    common_exponent, figure, nearest_round, percent, round_at_most, shifted, significant, ticks,
 };
 
 #[test]
 fn round_numbers() {
     let numbers = [1.0, 1.5, 120.0, 0.034, 8.0, 3e299, 3e-300];
-    let nearest = numbers.map(|x| Decimal::nearest_round(x).value());
+    let nearest = numbers.map(nearest_round);
     assert_eq!(nearest, [1.0, 2.0, 100.0, 0.05, 10.0, 2e299, 2e-300]);
-    let at_most = [1.99, 2.0, 12.5, 0.7, 9.99e-301].map(|x| Decimal::round_at_most(x).value());
+    let at_most = [1.99, 2.0, 12.5, 0.7, 9.99e-301].map(round_at_most);
     assert_eq!(at_most, [1.0, 2.0, 10.0, 0.5, 5e-301]);
 }
 

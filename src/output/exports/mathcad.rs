@@ -5,7 +5,7 @@ use super::{CorrectedExport, Export, ITERATED, Iterated, MOVED, listing};
 use ::mathcad::value::Array;
 use ::mathcad::xmcd::{page::Page, write};
 use ::mathcad::{Settings, Value};
-use paper::corrected::Program;
+use paper::corrected::{Bound, Program, STEPS, program};
 use paper::listings::{Which, elasticity, settings, tables};
 use paper::mirror::Worksheet;
 use problem::element::Plane;
@@ -129,14 +129,14 @@ pub fn corrected(export: &CorrectedExport) -> String {
     );
     scene_tables(&mut page, export.sheet, export.thickness);
     define(&mut page, "F", &Array::column(export.force.clone()).into());
-    define(&mut page, "both", &export.bound.both().into());
+    define(&mut page, "both", &Bound::Normal.both().into());
     elements(&mut page, export.sheet);
     page.heading("The corrected listings / Исправленные листинги");
-    for program in Program::ALL {
-        page.program(&program.listing());
+    for own in Program::ALL {
+        page.program(&program(*own, &[]));
     }
     page.heading("The iterations / Итерации");
-    page.define("U", expression(&format!("iterate({})", export.steps)), 1);
+    page.define("U", expression(&format!("iterate({STEPS})")), 1);
     page.define("u", expression("submatrix(U,1,2·R,1,1)"), 1);
     page.evaluate(expression("u"), export.u.len(), "u");
     page.heading(

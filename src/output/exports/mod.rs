@@ -6,7 +6,6 @@ pub mod octave;
 
 use ::mathcad::Listing;
 use ::mathcad::array::Table;
-use paper::corrected::Bound;
 use paper::mirror::{Pairs, Reading, Worksheet};
 
 /// What is exported.
@@ -25,7 +24,7 @@ pub struct Export<'a> {
     pub run: Option<Iterated>,
 }
 
-/// The corrected algorithm on a scene, and what this program has for it.
+/// The corrected algorithm on a scene, whose contact nodes slide freely, and what this program has for it.
 pub struct CorrectedExport<'a> {
     /// What the worksheet is called.
     pub title: &'a str,
@@ -35,10 +34,6 @@ pub struct CorrectedExport<'a> {
     pub thickness: f64,
     /// The load on each equation, force. 2R.
     pub force: Vec<f64>,
-    /// The components of displacement that a node in contact shares with its target.
-    pub bound: Bound,
-    /// The most iterations.
-    pub steps: usize,
     /// The displacements at the end, length. 2R.
     pub u: Vec<f64>,
 }

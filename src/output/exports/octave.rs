@@ -13,7 +13,7 @@ use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
 use base::files::PER_CENT;
 use base::plain::on_a_line;
-use paper::corrected::Program;
+use paper::corrected::{self, Bound, Program, STEPS};
 use paper::listings::{Which, elasticity, tables};
 
 const HELPERS: &str = "
@@ -121,15 +121,15 @@ pub fn program(export: &Export) -> String {
 
 /// Writes the program of the corrected algorithm.
 pub fn corrected(export: &CorrectedExport) -> String {
-    let more = [("F", column(&export.force)), ("both", export.bound.both().into())];
+    let more = [("F", column(&export.force)), ("both", Bound::Normal.both().into())];
     let globals = Globals(tables(export.sheet).into_iter().chain(more).collect());
     let mut text = head(export.title, "The corrected algorithm of plane-contact.");
-    for program in Program::ALL {
-        text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
+    for own in Program::ALL {
+        text += &function(&corrected::program(*own, &[]), "", Conjunction::Guarded, &globals);
     }
     text += &own(&[elasticity(export.sheet.plane)], &globals);
     text += &globals.definitions();
-    text += &format!("  U = iterate({});\n  U = U(1:{});\n", export.steps, export.u.len());
+    text += &format!("  U = iterate({STEPS});\n  U = U(1:{});\n", export.u.len());
     text + &beside("U", column(&export.u))
 }
 

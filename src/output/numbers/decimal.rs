@@ -1,46 +1,23 @@
-//! Decimal numbers of one digit or two, and the decimal exponent of a float.
+//! Round numbers, and the decimal exponent of a float. What is said of them holds from 1e-300 to 1e300.
 
-/// The number digits · 10^place. Everything that is said of it holds from 1e-300 to 1e300.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Decimal {
-    digits: u32,
-    place: i32,
+/// Returns the round number (1, 2 or 5 times a power of ten) nearest to `x` > 0 as a ratio.
+pub fn nearest_round(x: f64) -> f64 {
+    round(x, [2.0, 10.0, 50.0].map(f64::sqrt))
 }
 
-impl Decimal {
-    /// Returns the round number (1, 2 or 5 times a power of ten) nearest to `x` > 0 as a ratio.
-    pub fn nearest_round(x: f64) -> Self {
-        Self::round(x, [2.0, 10.0, 50.0].map(f64::sqrt))
-    }
+/// Returns the largest round number that is at most `x` > 0.
+pub fn round_at_most(x: f64) -> f64 {
+    round(x, [2.0, 5.0, 10.0])
+}
 
-    /// Returns the largest round number that is at most `x` > 0.
-    pub fn round_at_most(x: f64) -> Self {
-        Self::round(x, [2.0, 5.0, 10.0])
-    }
-
-    /// Returns the round number of the size of `x`; from each of the three mantissas in `limits` on
-    /// that is 2, 5 and 10 in turn.
-    fn round(x: f64, limits: [f64; 3]) -> Self {
-        let text = format!("{x:e}");
-        let (mantissa, place) = split(&text);
-        let mantissa: f64 = mantissa.parse().expect("a mantissa");
-        match limits.iter().filter(|&&limit| mantissa >= limit).count() {
-            0 => Self { digits: 1, place },
-            1 => Self { digits: 2, place },
-            2 => Self { digits: 5, place },
-            _ => Self { digits: 1, place: place + 1 },
-        }
-    }
-
-    /// Returns the place of its last digit: −2 for hundredths.
-    pub fn last_place(self) -> i32 {
-        self.place
-    }
-
-    /// Returns the float nearest to the number.
-    pub fn value(self) -> f64 {
-        format!("{}e{}", self.digits, self.place).parse().expect("digits and an exponent")
-    }
+/// Returns the round number of the size of `x`; from each of the three mantissas in `limits` on that is 2, 5 and 10
+/// in turn.
+fn round(x: f64, limits: [f64; 3]) -> f64 {
+    let text = format!("{x:e}");
+    let (mantissa, place) = split(&text);
+    let mantissa: f64 = mantissa.parse().expect("a mantissa");
+    let digits = [1, 2, 5, 10][limits.iter().filter(|&&limit| mantissa >= limit).count()];
+    format!("{digits}e{place}").parse().expect("digits and an exponent")
 }
 
 /// Returns how many decimals reach down to a place: 2 for −2, and 0 from the units upwards.

@@ -6,7 +6,7 @@ mod digits;
 mod typeset;
 mod undefined;
 
-pub use decimal::Decimal;
+pub use decimal::{nearest_round, round_at_most};
 pub use digits::{Digits, decimals_of_places, figure, percent};
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use undefined::reason;
@@ -35,11 +35,6 @@ pub fn long(x: f64) -> String {
 /// Returns a point as text, `x, y`.
 pub fn coordinates([x, y]: [f64; 2], decimals: usize) -> String {
     format!("{}, {}", digits::fixed(x, decimals), digits::fixed(y, decimals))
-}
-
-/// Writes a value by `written`, and `-` where there is none.
-pub fn or_dash<T>(value: Option<T>, written: impl Fn(T) -> String) -> String {
-    value.map_or("-".into(), written)
 }
 
 /// Writes what a column or an axis shows and its unit, `arc, mm`; the name alone where the scene

@@ -1,17 +1,17 @@
 //! Numbers as the pictures write them: a true minus sign, and powers of ten raised.
 
-use super::decimal::{Decimal, decimals, exponent, split};
+use super::decimal::{decimals, exponent, round_at_most, split};
 
 /// Returns the multiples of a round number from `low` to `high` (`low` < `high`), four to nine of
 /// them, as value and text.
 pub fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     const SLACK: f64 = 1e-9;
-    let step = Decimal::round_at_most((high - low) / 3.2);
-    let first = (low / step.value() - SLACK).ceil() as i64;
-    let last = (high / step.value() + SLACK).floor() as i64;
+    let step = round_at_most((high - low) / 3.2);
+    let first = (low / step - SLACK).ceil() as i64;
+    let last = (high / step + SLACK).floor() as i64;
     let tick = |index: i64| {
-        let value = index as f64 * step.value();
-        (value, minus(&format!("{value:.*}", decimals(step.last_place()))))
+        let value = index as f64 * step;
+        (value, minus(&format!("{value:.*}", decimals(exponent(step)))))
     };
     (first..=last).map(tick).collect()
 }

@@ -52,7 +52,6 @@ const REASONS: &[(&str, &str)] = &[
     ("failure", "the run did not fail"),
     ("in_contact", "the run failed"),
     ("seconds", "the run failed, or is not timed"),
-    ("peak_bytes", "it was not measured"),
     ("solver", "the scalar's own solver"),
 ];
 

@@ -39,18 +39,6 @@ pub struct Contact {
     pub edges: Vec<[usize; 2]>,
 }
 
-/// A value for each triangle, and the displacements under which it came.
-pub struct Field<'a> {
-    /// The name of the quantity, such as `von Mises stress`.
-    pub quantity: &'a str,
-    /// Its unit: `""` where the scene names none, `"1"` of a quantity without dimension.
-    pub unit: &'a str,
-    /// Its value in each triangle, finite.
-    pub values: &'a [f64],
-    /// The displacement of each point, finite, length.
-    pub displacement: &'a [[f64; 2]],
-}
-
 impl Drawing {
     /// Collects what the pictures of a scene need.
     pub fn new(scene: &Scene, title: &str) -> Self {

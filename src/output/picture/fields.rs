@@ -1,12 +1,12 @@
 //! A field on the deformed mesh, and what is said under it.
 
 use super::colour::{COLOURS, ColourScale, parts, with_unit};
-use super::drawing::{Drawing, Field, boundary_edges};
+use super::drawing::{Drawing, boundary_edges};
 use super::page::Page;
 use super::raster::{CAPTION, Raster};
 use super::svg::{Coloured, circle, group, path, polygon, segments};
 use super::view::Bounds;
-use crate::numbers::{Decimal, significant};
+use crate::numbers::{nearest_round, significant};
 use numbers::largest::largest;
 
 const OUTLINE: &str = "#111111";
@@ -16,14 +16,20 @@ const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
 /// The largest displacement as it is drawn, about, as a part of the picture's size.
 const DRAWN_DISPLACEMENT: f64 = 0.035;
 
-/// Draws a field on the deformed mesh, one flat colour per triangle.
+/// Draws the `values` of a quantity on the mesh deformed by the `displacement` of each point, one flat colour per
+/// triangle. The unit is `""` where the scene names none, and `"1"` of a quantity without dimension.
 ///
 /// # Panics
 ///
 /// If there is not one value per triangle and one displacement per point, all finite.
-pub fn field(drawing: &Drawing, field: &Field) -> String {
+pub fn field(
+    drawing: &Drawing,
+    quantity: &str,
+    unit: &str,
+    values: &[f64],
+    displacement: &[[f64; 2]],
+) -> String {
     let Drawing { points, triangles, .. } = drawing;
-    let Field { quantity, unit, values, displacement } = *field;
     assert_eq!(values.len(), triangles.len(), "one value per triangle");
     assert_eq!(displacement.len(), points.len(), "one displacement per point");
     let is_finite = values.iter().chain(displacement.as_flattened()).all(|x| x.is_finite());
@@ -36,7 +42,7 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
         0.0 => 1.0,
         farthest => {
             let ratio = size / farthest * DRAWN_DISPLACEMENT;
-            Decimal::nearest_round(ratio.clamp(1e-300, 1e300)).value()
+            nearest_round(ratio.clamp(1e-300, 1e300))
         }
     };
     let moved = points.iter().zip(displacement);

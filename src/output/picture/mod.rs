@@ -25,7 +25,7 @@ pub mod svg;
 pub mod view;
 
 pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
-pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, boundary_edges};
+pub use self::drawing::{Contact, Drawing, MOST_SHAPES, boundary_edges};
 pub use self::fields::field;
 
 use self::bodies::{draw_bodies, legend};

@@ -6,7 +6,7 @@ use super::svg::{
     text_of_size,
 };
 use super::view::{Bounds, Frame, View};
-use crate::numbers::{Decimal, significant};
+use crate::numbers::{round_at_most, significant};
 use base::xml::Element;
 
 /// The width of a picture that stands alone, and of one of several on a screen, pixels. Printed at 2/3, they
@@ -137,7 +137,7 @@ impl Page {
     /// Puts a bar of round length under a panel's lower left corner; the next part begins below it.
     fn scale_bar(&mut self, view: &View, unit: &str) {
         let Frame { corner: [x, top], size } = view.frame;
-        let length = Decimal::round_at_most(size[0].max(SCALE_BAR) / 4.0 / view.scale).value();
+        let length = round_at_most(size[0].max(SCALE_BAR) / 4.0 / view.scale);
         let (y, end) = (top + size[1] + 20.0, x + length * view.scale);
         let upright = |x: f64| line([x, y - 4.0], [x, y + 4.0]);
         let bar = group().stroke(DARK, 1.5).with(line([x, y], [end, y]));

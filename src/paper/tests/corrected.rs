@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use paper::corrected::{Bound, Ending, FAULTS, check, iterate};
+use paper::corrected::{Bound, Ending, FAULTS, Worksheet, check};
 use paper::findings::FindingId;
 use problem::model::{Force, Material, Model, NodeId};
 use problem::scene::Scene;
@@ -16,7 +16,7 @@ fn model(scene: &str) -> Arc<Model> {
 }
 
 fn ending(model: &Model, bound: Bound, steps: usize) -> Ending {
-    iterate(model, bound, &[], steps).expect("the programs end")
+    Worksheet::new(model, bound).iterate(&[], steps).expect("the programs end")
 }
 
 /// Each block is 2 mm high, in uniaxial strain under 6.3 MPa: `golden/two-blocks/README.md`.

@@ -7,7 +7,7 @@ use base::files;
 use engine::error::{Error, Result};
 use engine::{self, Request};
 use output::exports::{CorrectedExport, Export, Iterated, mathcad, octave};
-use paper::corrected::{Bound, STEPS, check, iterate};
+use paper::corrected::{Bound, STEPS, Worksheet, check};
 use paper::door;
 use problem::model::Model;
 use problem::modelling::Variant;
@@ -106,8 +106,7 @@ fn corrected(args: &Args, write: impl Fn(&CorrectedExport) -> String) -> Result<
     let model = &*scene.model;
     check_size(&scene, model)?;
     check(model)?;
-    let bound = Bound::Normal;
-    let ending = waiting("executing", || iterate(model, bound, &[], STEPS));
+    let ending = waiting("executing", || Worksheet::new(model, Bound::Normal).iterate(&[], STEPS));
     let ending = ending.map_err(|failure| {
         let fix = "restrain the bodies; contact alone leaves one free to move";
         InputError::new(&scene.name, failure.to_string(), fix)
@@ -124,8 +123,6 @@ fn corrected(args: &Args, write: impl Fn(&CorrectedExport) -> String) -> Result<
         sheet: &door::worksheet(model, |x| x),
         thickness: model.thickness,
         force: model.load_in(|x| x).iter().copied().collect(),
-        bound,
-        steps: STEPS,
         u: ending.u,
     }))
 }

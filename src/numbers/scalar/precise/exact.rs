@@ -185,9 +185,6 @@ impl Scalar for Exact {
     fn to_rational(self) -> Option<RBig> {
         self.with(RBig::clone)
     }
-    fn from_number(n: usize) -> Self {
-        Exact::new(RBig::from(n))
-    }
     /// The displacements of a solution have long denominators, nearly all of them the same.
     fn over_common(values: Vec<Self>) -> (Vec<Self>, Self) {
         let Some(fractions) = values.iter().map(|x| x.to_rational()).collect::<Option<Vec<_>>>()

@@ -41,16 +41,6 @@ impl F64x2 {
         [self.hi, self.lo]
     }
 
-    /// Returns the square root, NaN of a negative number.
-    pub fn sqrt(self) -> Self {
-        let plain = self.hi.sqrt();
-        if plain == 0.0 {
-            return F64x2 { hi: plain, lo: 0.0 };
-        }
-        let rest = self.lo + (-plain).mul_add(plain, self.hi);
-        F64x2::settled(fast_two_sum(plain, rest / (2.0 * plain)), plain)
-    }
-
     #[inline]
     fn sum(x: Self, y: Self) -> Self {
         let [high, high_error] = two_sum(x.hi, y.hi);
@@ -66,20 +56,13 @@ impl F64x2 {
 
     #[inline]
     fn product(x: Self, y: Self) -> Self {
-        let [product, beside] = F64x2::parts_of_product(x, y);
-        F64x2::settled(fast_two_sum(product, beside), product)
-    }
-
-    /// Returns x · y in two parts that are not brought together yet.
-    #[inline]
-    fn parts_of_product(x: Self, y: Self) -> [f64; 2] {
         let [product, error] = two_product(x.hi, y.hi);
         // Where x is an f64 the rest is one product, of the same digits.
         let low = match x.lo == 0.0 {
             true => x.hi * y.lo,
             false => x.lo.mul_add(y.hi, x.hi.mul_add(y.lo, x.lo * y.lo)),
         };
-        [product, error + low]
+        F64x2::settled(fast_two_sum(product, error + low), product)
     }
 
     fn quotient(x: Self, y: Self) -> Self {
@@ -160,16 +143,22 @@ impl Scalar for F64x2 {
     fn digits(self) -> Option<String> {
         Some(self.to_string())
     }
+    /// NaN of a negative number.
     fn root(self) -> Self {
-        self.sqrt()
+        let plain = self.hi.sqrt();
+        if plain == 0.0 {
+            return F64x2 { hi: plain, lo: 0.0 };
+        }
+        let rest = self.lo + (-plain).mul_add(plain, self.hi);
+        F64x2::settled(fast_two_sum(plain, rest / (2.0 * plain)), plain)
     }
     fn length(x: Self, y: Self) -> Self {
         let largest = Scalar::max(Scalar::abs(x), Scalar::abs(y));
         let (x, y) = (x / largest, y / largest);
-        largest * (x * x + y * y).sqrt()
+        largest * (x * x + y * y).root()
     }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
-        (factor.sqrt() * (scale * square.sqrt())).hi
+        (factor.root() * (scale * square.root())).hi
     }
 }
 

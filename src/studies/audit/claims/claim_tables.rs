@@ -9,7 +9,7 @@ use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
 use output::layout::listed;
 use output::model::{Report, Table};
-use output::numbers::{or_dash, percent, short};
+use output::numbers::{percent, short};
 use output::tables::PROBABLY_MORE;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
@@ -136,7 +136,7 @@ fn entry(judged: &JudgedClaim) -> Report {
     let value = judged.measured.figure(short);
     let errors = &judged.measured.mesh_errors;
     let each = errors.iter().map(|MeshError { run, energy_relative }| {
-        format!("{run} {}", or_dash(*energy_relative, percent))
+        format!("{run} {}", energy_relative.map_or("-".into(), percent))
     });
     let errors = (!errors.is_empty()).then(|| {
         format!(
