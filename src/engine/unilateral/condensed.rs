@@ -57,7 +57,7 @@ impl<'a> Condensed<'a> {
         let StateSearch { problem, config, .. } = search;
         let pairings = &config.pairings;
         let entries: Vec<usize> = (0..pairings.len()).filter(|i| pairings[*i].is_some()).collect();
-        if entries.is_empty() || entries.len() > MOST {
+        if entries.len() > MOST {
             return None;
         }
         let held: Vec<Status> = (0..pairings.len())
@@ -74,7 +74,7 @@ impl<'a> Condensed<'a> {
         let (bodies, solved) = search.held(&held, &constraints).ok()?.ok()?;
         let at_rest = forces(&solved.reaction)?;
         let size = at_rest.len();
-        let mut loads = Vec::new();
+        let mut stiffness = DMatrix::zeros(size, size);
         for column in 0..size {
             let mut unit = (0..size).map(|row| if row == column { 1.0 } else { 0.0 });
             let mut next = |status| match status {
@@ -84,7 +84,7 @@ impl<'a> Condensed<'a> {
             let moved = constraints.iter().zip(facing()).map(|(constraint, (pairing, status))| {
                 at_distance(constraint, pairing, next(status).map(Option::unwrap_or_default))
             });
-            let [u, load] = bodies.shift(&moved.collect::<Vec<_>>())?;
+            let [u, reaction] = bodies.moved(&moved.collect::<Vec<_>>())?;
             let reached = facing().flat_map(|(pairing, status)| {
                 let (n, t) = (pairing.normal, pairing.tangent());
                 let [ux, uy] = pairing.motion(|node| node.components(&u));
@@ -96,10 +96,8 @@ impl<'a> Condensed<'a> {
             if !reached.enumerate().all(is_near) {
                 return None;
             }
-            loads.push(load);
+            stiffness.set_column(column, &forces(&reaction)?);
         }
-        let columns: Option<Vec<_>> = bodies.responses(&loads).iter().map(forces).collect();
-        let stiffness = DMatrix::from_columns(&columns?);
         let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
         let (stiffness, at_rest) = (stiffness / scale, at_rest / unit);
         (unit > 0.0).then_some(Condensed { search, entries, held, stiffness, at_rest })
