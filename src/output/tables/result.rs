@@ -39,7 +39,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
         .notes(in_contact(solution))
         .notes(resultant(solution))
         .notes(peak(solution, &ends, error))
-        .notes(width(solution))
+        .then(width(solution))
         .notes(displacement(assessment, solution, error))
         .notes(stresses(assessment, solution, error))
         .notes(mesh_error(assessment, solution, error));
@@ -215,7 +215,7 @@ fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId)
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error; of several
 /// unbroken stretches also what each passes on.
-fn width(solution: &Solution) -> Vec<String> {
+fn width(solution: &Solution) -> Report {
     let (units, stretches) = (&solution.request.scene.units, engine::stretches(solution));
     let span = |Stretch { nodes, width, .. }: &Stretch| {
         let [first, .., last] = nodes[..] else { return format!("node {} alone", nodes[0]) };
@@ -226,9 +226,9 @@ fn width(solution: &Solution) -> Vec<String> {
         )
     };
     match &stretches[..] {
-        [] => Vec::new(),
-        [one] if one.nodes.len() == 1 => Vec::new(),
-        [one] => vec![format!("Contact width {}", span(one))],
+        [] => Report::default(),
+        [one] if one.nodes.len() == 1 => Report::default(),
+        [one] => Report::default().note(format!("Contact width {}", span(one))),
         several => {
             let line = |stretch: &Stretch| {
                 let [own, target] = &stretch.bodies;
@@ -236,13 +236,13 @@ fn width(solution: &Solution) -> Vec<String> {
                     true => String::new(),
                     false => format!(": {}", force_along(solution, &stretch.passed)),
                 };
-                format!("  {own} on {target}, {}{passed}", span(stretch))
+                format!("{own} on {target}, {}{passed}", span(stretch))
             };
             let more = several.len().saturating_sub(MOST_STRETCHES);
-            std::iter::once(format!("Contact in {} stretches:", several.len()))
-                .chain(several.iter().take(MOST_STRETCHES).map(line))
-                .chain((more > 0).then(|| format!("  and {more} more, in result.json")))
-                .collect()
+            Report::default()
+                .note(format!("Contact in {} stretches:", several.len()))
+                .details(several.iter().take(MOST_STRETCHES).map(line))
+                .details((more > 0).then(|| format!("and {more} more, in result.json")))
         }
     }
 }
