@@ -88,6 +88,11 @@ impl Tree {
         }
     }
 
+    /// Calls `found` with each edge in the boxes that meet another one.
+    pub fn visit_in(&self, near: Bounds, found: &mut impl FnMut(usize)) {
+        self.visit(&|bounds: Bounds| bounds.meets(near).then_some(0.0), found);
+    }
+
     fn visit_box(
         &self,
         at: usize,

@@ -48,8 +48,6 @@ pub struct Properties {
     pub digits: Option<u32>,
     /// The solvers that are offered.
     pub solvers: &'static [Solver],
-    /// Why the integrals of mortar coupling are not computed in it; None where they are.
-    pub no_mortar: Option<&'static str>,
 }
 
 impl ScalarName {
@@ -60,22 +58,23 @@ impl ScalarName {
 
     /// Returns why the weights of a coupling are not computed in it; None where they are.
     pub fn refuses(self, coupling: Coupling) -> Option<&'static str> {
-        match coupling {
-            Coupling::Nts => None,
-            Coupling::Mortar => self.properties().no_mortar,
+        match (coupling, self) {
+            (Coupling::Nts, _) | (Coupling::Mortar, ScalarName::F64 | ScalarName::F64x2) => None,
+            (Coupling::Mortar, ScalarName::F32) => Some("its integrals lose too many digits"),
+            (Coupling::Mortar, ScalarName::Exact) => Some("its integrals take square roots"),
         }
     }
 
     /// Returns what is known of it.
     pub fn properties(self) -> Properties {
         const OWN: &[Solver] = &[Solver::DenseLu, Solver::SparseCholesky];
-        let (digits, solvers, no_mortar) = match self {
-            ScalarName::F64 => (Some(16), Solver::ALL, None),
-            ScalarName::F32 => (Some(7), OWN, Some("its integrals lose too many digits")),
-            ScalarName::F64x2 => (Some(31), OWN, None),
-            ScalarName::Exact => (None, OWN, Some("its integrals take square roots")),
+        let (digits, solvers) = match self {
+            ScalarName::F64 => (Some(16), Solver::ALL),
+            ScalarName::F32 => (Some(7), OWN),
+            ScalarName::F64x2 => (Some(31), OWN),
+            ScalarName::Exact => (None, OWN),
         };
-        Properties { digits, solvers, no_mortar }
+        Properties { digits, solvers }
     }
 }
 

@@ -45,7 +45,7 @@ impl Candidates {
             let grown = tolerance + MARGIN * model.length(edge.nodes);
             let ends = edge.nodes.map(|node| model.coordinates(node));
             let near = Bounds::around(&ends).padded(grown);
-            tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+            tree.visit_in(near, &mut |k| {
                 found[k] += usize::from(near.contains(points[k]));
             });
         }

@@ -55,7 +55,7 @@ pub fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
         let length = dx.hypot(dy);
         let depth = DEPTH * length;
         let near = Bounds::around(&ends).padded(2.0 * depth);
-        tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+        tree.visit_in(near, &mut |k| {
             let n = outline[k][0];
             let [nx, ny] = model.coordinates(n);
             let (ax, ay) = (nx - x, ny - y);

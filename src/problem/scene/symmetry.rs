@@ -154,7 +154,7 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
         let [nx, ny] = model.coordinates(n);
         let near = Bounds::around(&[[2.0 * at - nx, ny]]).padded(2.0 * place);
         let mut found = Vec::new();
-        tree.visit(&|b: Bounds| b.meets(near).then_some(0.0), &mut |k| {
+        tree.visit_in(near, &mut |k| {
             let [mx, my] = model.nodes[k];
             if (2.0 * at - nx - mx).hypot(ny - my) <= place {
                 found.push(NodeId::new(k));
